@@ -1,9 +1,14 @@
 !> Processes that this one starts: the same program again, with other words
 module axijoint_base_children
    use, intrinsic :: iso_c_binding, only : c_char, c_int, c_null_char
+   use axijoint_base_error, only : exit_stopped
+   use axijoint_base_text, only : to_text
    implicit none
    private
-   public :: child_type, start_child, look_at_child, ask_to_end, pause_a_moment
+   public :: child_type, start_child, look_at_child, ask_to_end, how_it_ended, pause_a_moment, no_program
+
+   !> Exit code of a process that could not be started; those from here on are of signals, less their number
+   integer, parameter :: no_program = 127, of_signal = 128
 
    !> A process
    type :: child_type
@@ -58,7 +63,7 @@ contains
          if (words(k:k) == c_null_char) n = n + 1
       end do
       child%id = int(c_start_child(words//c_null_char, int(n, c_int)))
-      if (child%id <= 0) child%code = 127
+      if (child%id <= 0) child%code = no_program
    end function start_child
 
    !> See whether a child has ended
@@ -77,9 +82,34 @@ contains
       if (child%code < 0) call c_end_child(int(child%id, c_int))
    end subroutine ask_to_end
 
-   !> Leave the processor to others for a twentieth of a second
-   subroutine pause_a_moment()
-      call c_pause(50_c_int)
+   !> How a process ended, in words
+   function how_it_ended(code) result(text)
+      !> Exit code, or 128 and the number of a signal
+      integer, intent(in) :: code
+      !> The words
+      character(len=:), allocatable :: text
+
+      if (code == exit_stopped) then
+         text = 'was told to end'
+      else if (code > of_signal) then
+         text = 'was ended by signal '//to_text(code - of_signal)
+      else if (code == no_program) then
+         text = 'could not be started'
+      else
+         text = 'ended with exit code '//to_text(code)
+      end if
+   end function how_it_ended
+
+   !> Leave the processor to others for a while
+   subroutine pause_a_moment(milliseconds)
+      !> How long; a twentieth of a second if absent
+      integer, intent(in), optional :: milliseconds
+
+      if (present(milliseconds)) then
+         call c_pause(int(milliseconds, c_int))
+      else
+         call c_pause(50_c_int)
+      end if
    end subroutine pause_a_moment
 
 end module axijoint_base_children

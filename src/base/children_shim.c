@@ -4,6 +4,7 @@
 #include <limits.h>
 #include <signal.h>
 #include <stddef.h>
+#include <string.h>
 #include <sys/types.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -11,12 +12,21 @@
 #include <sys/prctl.h>
 #endif
 
+extern char **environ;
+
 /* Start this program again with n words, each ended by a zero. What is started ends when this process ends, by the
-   signal that asks it to. The number of the process, or -errno. */
+   signal that asks it to, and shows no progress, which would be written over what others show. The number of the
+   process, or -errno. */
 int axijoint_start_child(const char *words, int n)
 {
    static char path[PATH_MAX];
    char *arguments[n + 2];
+   size_t n_variables = 0;
+   while (environ[n_variables]) n_variables++;
+   char *variables[n_variables + 2];
+   memcpy(variables, environ, n_variables * sizeof *variables);
+   variables[n_variables] = (char *)"AXIJOINT_PROGRESS=none";
+   variables[n_variables + 1] = NULL;
    const pid_t parent = getpid();
    const ssize_t length = readlink("/proc/self/exe", path, sizeof path - 1);
    if (length <= 0) return -(length < 0 ? errno : ENOENT);
@@ -34,7 +44,7 @@ int axijoint_start_child(const char *words, int n)
       prctl(PR_SET_PDEATHSIG, SIGTERM);
       if (getppid() != parent) _exit(0);
 #endif
-      execv(path, arguments);
+      execve(path, arguments, variables);
       _exit(127);
    }
    return (int)child;

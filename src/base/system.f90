@@ -314,7 +314,11 @@ contains
 
    !> Whether the standard error output goes to a terminal
    logical function error_output_is_terminal()
+      integer :: length
+
       error_output_is_terminal = c_isatty(standard_error) == 1_c_int
+      call get_environment_variable('AXIJOINT_PROGRESS', length=length)
+      if (length > 0) error_output_is_terminal = .false.  ! of several processes, which show none
    end function error_output_is_terminal
 
    !> From now on give large arrays back to the system as soon as they are freed

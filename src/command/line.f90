@@ -36,8 +36,8 @@ module axijoint_command_line
       character(len=:), allocatable :: name
       !> Decks to run or check; of `compare`, all words that follow it
       type(word_type), allocatable :: decks(:)
-      !> All words after the command
-      type(word_type), allocatable :: words(:)
+      !> All words after the command; those of them that are options and their values
+      type(word_type), allocatable :: words(:), settings(:)
       !> Solvers that can be asked for
       type(solver_entry_type), allocatable :: solvers(:)
       !> Directory for results, solver, memory, sweep
@@ -51,7 +51,7 @@ module axijoint_command_line
       !> Whether nothing but errors and warnings is to be told; whether a log is to say what is done
       logical :: quiet = .false., verbose = .false.
       !> Of a study: whether errors are estimated; the part to solve; processes that solve it, 0 for
-      !> as many as pay
+      !> as many as pay; of decks to run 0 for one
       logical :: estimates = .false.
       type(part_type) :: part
       integer :: n_processes = 0
@@ -211,6 +211,7 @@ contains
 
       command%name = trim(topic%name)
       command%words = words
+      allocate (command%settings(0))
       only_decks = .false.
       k = 0
       do while (k < size(words))
@@ -229,6 +230,7 @@ contains
                call unknown('option', word, names_of_options(topic), error)
             else if (topic%options(option)%value == '') then
                call set_option(word, command)
+               command%settings = [command%settings, words(k)]
             else if (k == size(words)) then
                call fatal_error(error, exit_deck, 'option '//word//' needs '// &
                   trim(topic%options(option)%value)//": see 'axijoint help "//command%name//"'")
@@ -237,6 +239,7 @@ contains
             else
                k = k + 1
                call read_option(word, words(k)%text, command, error)
+               command%settings = [command%settings, words(k - 1:k)]
             end if
             if (allocated(error)) return
          end associate

@@ -74,7 +74,10 @@ contains
                       'is not there (default: the current one)', takes_folder), &
           option_type('--solver', 'NAME', alternatives(solvers)//' (default: as the deck says)', &
                       takes_word, joined(solvers)), &
-          threads, memory, legacy, formats, &
+          threads, memory, &
+          option_type('--processes', 'N', 'decks by N processes of this machine, one each, which share threads and memory '// &
+                      '(default: one after the other)'), &
+          legacy, formats, &
           option_type('--listing', 'PROGRAM', 'NAME.owen-hinton.lis, too: the listing as that '// &
                       'program prints it (harmonic 0, no joints)', takes_word, 'owen-hinton'), &
           option_type('--vtk', '', 'NAME.vtkhdf for ParaView, too (whole circle; SWEEP of the '// &

@@ -11,6 +11,7 @@ module axijoint_command_run
    use axijoint_base_text, only : to_text
    use axijoint_base_timer, only : phase_write
    use axijoint_command_line, only : command_type, word_type
+   use axijoint_command_run_processes, only : run_in_processes, are_apart
    use axijoint_deck_text_diagnostics, only : diagnostics_type, render
    use axijoint_job_combination, only : solve_combination, combination_label
    use axijoint_job_goal, only : refine_to_goal
@@ -32,7 +33,7 @@ module axijoint_command_run
 
 contains
 
-   !> Run decks one after the other; one that fails does not stop the rest
+   !> Run decks one after the other, or some at once; one that fails does not stop the rest
    subroutine run_decks(command, exit_code)
       !> Decks and options
       type(command_type), intent(in) :: command
@@ -40,21 +41,45 @@ contains
       integer, intent(out) :: exit_code
 
       type(error_type), allocatable :: error
-      type(claim_type) :: claim
-      integer :: k, codes(size(command%decks))
+      integer :: n_begun, codes(size(command%decks))
 
       exit_code = exit_ok
-      codes = exit_ok
       call warn_if_slow()
       if (command%threads > 0) call omp_set_num_threads(command%threads)
       call heed_signals(with_others=allocated(command%options%team))
       call check_names(command%decks, error)
+      if (command%n_processes > 1 .and. allocated(command%options%team)) call fatal_error(error, exit_deck, &
+         'option --processes is not for several processes by MPI, which share each deck')
       if (allocated(error)) then
          call print_error('', error)
          exit_code = error%code
          return
       end if
-      do k = 1, size(command%decks)
+      if (command%n_processes > 1 .and. size(codes) > 1 .and. are_apart(command)) then
+         call run_in_processes(command, codes, n_begun)
+      else
+         call run_in_order(command, codes, n_begun)
+      end if
+      exit_code = maxval(codes)
+      if (speaks(command)) call tell(failed_decks(command%decks, codes, n_begun))
+   end subroutine run_decks
+
+   !> Run decks one after the other
+   subroutine run_in_order(command, codes, n_begun)
+      !> Decks and options
+      type(command_type), intent(in) :: command
+      !> Exit codes
+      integer, intent(out) :: codes(:)
+      !> Decks that were begun
+      integer, intent(out) :: n_begun
+
+      type(error_type), allocatable :: error
+      type(claim_type) :: claim
+      integer :: k
+
+      codes = exit_ok
+      do k = 1, size(codes)
+         n_begun = k
          associate (deck => command%decks(k)%text)
             call run_deck(deck, command, claim, codes(k), error)
             if (allocated(error)) then
@@ -67,9 +92,8 @@ contains
          call release_output(claim)
          if (codes(k) == exit_stopped) exit
       end do
-      exit_code = maxval(codes)
-      if (speaks(command)) call tell(failed_decks(command%decks, codes, min(k, size(codes))))
-   end subroutine run_decks
+   end subroutine run_in_order
+
 
    !> Which of several decks did not end well, so that nobody has to look for them in what was said of all
    pure function failed_decks(decks, codes, n) result(text)

@@ -2,8 +2,8 @@
 module axijoint_command_study_processes
    use, intrinsic :: iso_c_binding, only : c_null_char
    use axijoint_base_children, only : child_type, start_child, look_at_child, ask_to_end, &
-      pause_a_moment
-   use axijoint_base_error, only : error_type, exit_in_use, exit_stopped
+      how_it_ended, pause_a_moment
+   use axijoint_base_error, only : error_type, exit_in_use
    use axijoint_base_kinds, only : wp, i8
    use axijoint_base_memory, only : free_memory, resident_bytes
    use axijoint_base_progress, only : progress_type, show_progress, tell_below
@@ -191,23 +191,5 @@ contains
       end subroutine add
 
    end function words_of_part
-
-   !> How a process ended, in words
-   function how_it_ended(code) result(text)
-      !> Exit code, or 128 and the number of a signal
-      integer, intent(in) :: code
-      !> The words
-      character(len=:), allocatable :: text
-
-      integer, parameter :: signals = 128
-
-      if (code == exit_stopped) then
-         text = 'was told to end'
-      else if (code > signals) then
-         text = 'was ended by signal '//to_text(code - signals)
-      else
-         text = 'ended with exit code '//to_text(code)
-      end if
-   end function how_it_ended
 
 end module axijoint_command_study_processes

@@ -39,6 +39,8 @@ CASES = (
     (('check', FIRST, FIRST), 0, 'first.dat: ok', ''),
     (('check', '--quiet', FIRST), 0, '', ''),
     (('run', FIRST, '--quiet', '--verbose'), 2, '', 'only one of --quiet and --verbose'),
+    (('run', FIRST, FIRST, '--processes', '0'), 2, '', "option --processes: found '0', allowed is a number from 1 on"),
+    (('run', FIRST, FIRST, '--processes', '2'), 2, '', 'would write the same result files'),
     (('run', FIRST, '--quit'), 2, '', "unknown option '--quit'; did you mean --quiet?"),
     (('run', 'frist.dat'), 2, '', 'frist.dat: error: there is no such file'),
     (('run', '.', '-o', 'out'), 2, '', '.: error: this is a directory, not a file'),

@@ -1,0 +1,141 @@
+!> Decks of a run by several processes of this machine, one deck each
+module axijoint_command_run_processes
+   use, intrinsic :: iso_c_binding, only : c_null_char
+   use axijoint_base_children, only : child_type, start_child, look_at_child, ask_to_end, how_it_ended, pause_a_moment, no_program
+   use axijoint_base_error, only : exit_ok, exit_stopped
+   use axijoint_base_kinds, only : i8
+   use axijoint_base_memory, only : free_memory
+   use axijoint_base_progress, only : tell_below
+   use axijoint_base_stop, only : stop_wished
+   use axijoint_base_text, only : to_text
+   use axijoint_command_line, only : command_type
+   use axijoint_job_job, only : job_name, deck_name
+   use omp_lib, only : omp_get_max_threads
+   implicit none
+   private
+   public :: run_in_processes, are_apart
+
+   !> Time between two looks at the processes [millisecond]: a small deck takes some ten
+   integer, parameter :: look_after = 2
+
+contains
+
+   !> Let processes run the decks, each the next that none has begun. As in a process of all decks, none is begun after one that was
+   !> told to end
+   subroutine run_in_processes(command, codes, n_begun)
+      !> Decks and options
+      type(command_type), intent(in) :: command
+      !> Exit codes; 128 and the number of a signal that ended a process
+      integer, intent(out) :: codes(:)
+      !> Decks that were begun
+      integer, intent(out) :: n_begun
+
+      type(child_type) :: children(min(command%n_processes, size(codes)))
+      integer :: deck_of(size(children))
+      integer :: k
+      logical :: ends, asked
+
+      codes = exit_ok
+      n_begun = 0
+      deck_of = 0
+      ends = .false.
+      asked = .false.
+      do
+         do k = 1, size(children)
+            if (deck_of(k) > 0) then
+               call look_at_child(children(k))
+               if (children(k)%code < 0) cycle
+               call note_end(command%decks(deck_of(k))%text, children(k)%code)
+               codes(deck_of(k)) = children(k)%code
+               ends = ends .or. children(k)%code == exit_stopped
+               deck_of(k) = 0
+            end if
+            if (ends .or. n_begun == size(codes)) cycle
+            n_begun = n_begun + 1
+            deck_of(k) = n_begun
+            children(k) = start_child(words_of_deck(command, command%decks(n_begun)%text, size(children)))
+         end do
+         if (all(deck_of == 0)) exit
+         if (stop_wished() .and. .not. asked) then
+            do k = 1, size(children)
+               if (deck_of(k) > 0) call ask_to_end(children(k))
+            end do
+            asked = .true.
+            ends = .true.
+         end if
+         call pause_a_moment(look_after)
+      end do
+   end subroutine run_in_processes
+
+   !> Tell how a process ended that could say nothing itself
+   subroutine note_end(deck, code)
+      !> Its deck
+      character(len=*), intent(in) :: deck
+      !> Its exit code
+      integer, intent(in) :: code
+
+      if (code >= no_program) call tell_below('axijoint: '//deck_name(deck)//': its process '//how_it_ended(code))
+   end subroutine note_end
+
+   !> Whether no deck can have the name of results of another, as of one of its combinations: who reads a deck by itself cannot see that
+   pure logical function are_apart(command)
+      !> Decks and options
+      type(command_type), intent(in) :: command
+
+      integer :: i, k
+
+      are_apart = .true.
+      do i = 1, size(command%decks)
+         do k = 1, size(command%decks)
+            are_apart = are_apart .and. index(job_name(command%decks(k)%text), job_name(command%decks(i)%text)//'.') /= 1
+         end do
+      end do
+   end function are_apart
+
+   !> Words of the process of a deck: the options of this process, but for what divides threads and memory
+   function words_of_deck(command, deck, n_processes) result(words)
+      !> Words and options
+      type(command_type), intent(in) :: command
+      !> The deck, and the number of processes
+      character(len=*), intent(in) :: deck
+      integer, intent(in) :: n_processes
+      !> The words, each ended by a zero byte
+      character(len=:), allocatable :: words
+
+      integer(i8) :: mebibytes
+      integer :: k
+
+      mebibytes = max(1_i8, free_memory(command%options%memory_limit)/n_processes/2_i8**20)
+      words = ''
+      call add('run')
+      call add('--threads')
+      call add(to_text(max(1, omp_get_max_threads()/n_processes)))
+      call add('--memory')
+      call add(to_text(mebibytes))
+      k = 1
+      do while (k <= size(command%settings))
+         associate (word => command%settings(k)%text)
+            if (any(word == [character(len=11) :: '--processes', '--threads', '--memory'])) then
+               k = k + 1
+            else
+               call add(word)
+            end if
+         end associate
+         k = k + 1
+      end do
+      call add('--')
+      call add(deck)
+
+   contains
+
+      !> Add a word
+      subroutine add(word)
+         !> The word
+         character(len=*), intent(in) :: word
+
+         words = words//word//c_null_char
+      end subroutine add
+
+   end function words_of_deck
+
+end module axijoint_command_run_processes
