@@ -213,6 +213,7 @@ def whole(args):
               + f"  {100*sum(least.values())/run.clock:3.0f}%  {100*touching/run.clock:11.0f}%")
     text(args)
     start(args)
+    batches(args)
     return rows
 
 
@@ -259,6 +260,26 @@ def start(args):
         if found:
             arrays, attributes, least, median = found
             print(f"  its {arrays} arrays and {attributes} attributes by HDF5 alone, which is started already: {least}, {median} by the clock")
+
+
+def batches(args):
+    """Many decks: one after the other by all threads, and one a process by as many processes, by turns; medians by the clock"""
+    print(f"batches, {threads()} threads; milliseconds of a deck one after the other, by processes, ratio")
+    for what, n, deck in (("inputs/first.dat", 40, estimate_decks.inputs("first")), ("inputs/monopile.dat", 12, estimate_decks.inputs("monopile"))):
+        with tempfile.TemporaryDirectory() as folder:
+            decks = [os.path.join(folder, f"{k}.dat") for k in range(n)]
+            for path in decks:
+                with open(path, "w", encoding="utf-8") as file:
+                    file.write(deck)
+            ways = ([], ["--processes", str(threads())])
+            times = [[] for _ in ways]
+            for _ in range(args.rounds):
+                for options, found in zip(ways, times):
+                    begun = time.perf_counter()
+                    subprocess.run([args.axijoint, "run", *decks, "-o", folder, "--quiet", "--threads", str(threads()), *options], check=True)
+                    found.append(1e3*(time.perf_counter() - begun)/n)
+        after, apart = (statistics.median(found) for found in times)
+        print(f"  {n} decks like {what:20} {after:8.1f} {apart:8.1f}   {after/apart:.2f}", flush=True)
 
 
 def objects(path, folder):

@@ -16,7 +16,7 @@ module axijoint_command_run_processes
    public :: run_in_processes, are_apart
 
    !> Time between two looks at the processes [millisecond]: a small deck takes some ten
-   integer, parameter :: look_after = 2
+   integer, parameter :: look_after = 1
 
 contains
 
