@@ -14,19 +14,33 @@
 
 extern char **environ;
 
+/* stop_shim.c */
+void axijoint_stop_signals(sigset_t *set);
+
+/* Whether a variable of the environment is one of this process alone: to what processor its threads are bound */
+static int is_own(const char *variable)
+{
+   static const char *const own[] = {"AXIJOINT_PROGRESS=", "OMP_PROC_BIND=", "OMP_PLACES=", "GOMP_CPU_AFFINITY="};
+   for (size_t k = 0; k < sizeof own / sizeof own[0]; k++)
+      if (strncmp(variable, own[k], strlen(own[k])) == 0) return 1;
+   return 0;
+}
+
 /* Start this program again with n words, each ended by a zero. What is started ends when this process ends, by the
-   signal that asks it to, and shows no progress, which would be written over what others show. The number of the
+   signal that asks it to, and shows no progress, which would be written over what others show. Signals that come before
+   it takes note of them wait. It is this program even if another stands under its name by now. The number of the
    process, or -errno. */
 int axijoint_start_child(const char *words, int n)
 {
    static char path[PATH_MAX];
    char *arguments[n + 2];
-   size_t n_variables = 0;
+   size_t n_variables = 0, n_kept = 0;
    while (environ[n_variables]) n_variables++;
    char *variables[n_variables + 2];
-   memcpy(variables, environ, n_variables * sizeof *variables);
-   variables[n_variables] = (char *)"AXIJOINT_PROGRESS=none";
-   variables[n_variables + 1] = NULL;
+   for (size_t k = 0; k < n_variables; k++)
+      if (!is_own(environ[k])) variables[n_kept++] = environ[k];
+   variables[n_kept++] = (char *)"AXIJOINT_PROGRESS=none";
+   variables[n_kept] = NULL;
    const pid_t parent = getpid();
    const ssize_t length = readlink("/proc/self/exe", path, sizeof path - 1);
    if (length <= 0) return -(length < 0 ? errno : ENOENT);
@@ -37,14 +51,19 @@ int axijoint_start_child(const char *words, int n)
       while (*words++) {}
    }
    arguments[n + 1] = NULL;
+   sigset_t held, before;
+   axijoint_stop_signals(&held);
+   sigprocmask(SIG_BLOCK, &held, &before);
    const pid_t child = fork();
-   if (child < 0) return -errno;
+   const int failure = errno;
+   if (child != 0) sigprocmask(SIG_SETMASK, &before, NULL);
+   if (child < 0) return -failure;
    if (child == 0) {
 #ifdef __linux__
       prctl(PR_SET_PDEATHSIG, SIGTERM);
       if (getppid() != parent) _exit(0);
 #endif
-      execve(path, arguments, variables);
+      execve("/proc/self/exe", arguments, variables);
       _exit(127);
    }
    return (int)child;

@@ -15,6 +15,8 @@ static char file[4096];
 static volatile time_t looked = 0;
 static int together = 0, agreed = 0;
 
+void axijoint_stop_signals(sigset_t *set);
+
 /* The first time, remember it; interrupted once more, end as if nothing had been set up. */
 static void note_signal(int number)
 {
@@ -39,6 +41,16 @@ void axijoint_heed_signals(int with_others)
       sigemptyset(&action.sa_mask);
       sigaction(signals[k], &action, NULL);
    }
+   sigset_t mine;
+   axijoint_stop_signals(&mine);
+   sigprocmask(SIG_UNBLOCK, &mine, NULL); /* who started this process held them back until now */
+}
+
+/* The signals that are taken note of */
+void axijoint_stop_signals(sigset_t *set)
+{
+   sigemptyset(set);
+   for (int k = 0; k < n_signals; k++) sigaddset(set, signals[k]);
 }
 
 /* From now on take note of a file that somebody makes; of none if the path is empty. */

@@ -93,7 +93,7 @@ contains
           option_type('--', '', 'everything that follows is a deck')], &
          '0 ok; 2 deck or usage; 3 not converged; 4 singular or mechanism; 5 input or output; '// &
          '6 memory; 7 another run writes these results; 8 a state that cannot be gone on from; '// &
-         '70 internal; 75 stopped, --resume goes on. Of several decks, the largest.')
+         '70 internal; 75 stopped, --resume goes on. Of several decks, the largest; 75 if one was stopped.')
       topics(2) = topic_type('check', 'DECK...', 'read and check decks only', &
          'Reads and checks each deck, prints all its errors and what it describes, and solves '// &
          'nothing. The deck - is read from the standard input.', &

@@ -61,6 +61,7 @@ contains
          call run_in_order(command, codes, n_begun)
       end if
       exit_code = maxval(codes)
+      if (any(codes == exit_stopped)) exit_code = exit_stopped  ! a run that goes on is to follow, even if a process was killed
       if (speaks(command)) call tell(failed_decks(command%decks, codes, n_begun))
    end subroutine run_decks
 
@@ -109,7 +110,7 @@ contains
 
       text = ''
       if (size(decks) == 1 .or. all(codes == exit_ok)) return
-      text = 'axijoint: '//to_text(count(codes /= exit_ok))//' of '//to_text(size(decks))//' decks did not end well:'
+      text = 'axijoint: '//to_text(count(codes(:n) /= exit_ok))//' of '//to_text(size(decks))//' decks did not end well:'
       named = 0
       do k = 1, n
          if (codes(k) == exit_ok) cycle

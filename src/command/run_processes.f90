@@ -2,7 +2,7 @@
 module axijoint_command_run_processes
    use, intrinsic :: iso_c_binding, only : c_null_char
    use axijoint_base_children, only : child_type, start_child, look_at_child, ask_to_end, how_it_ended, pause_a_moment, no_program
-   use axijoint_base_error, only : exit_ok, exit_stopped
+   use axijoint_base_error, only : exit_stopped
    use axijoint_base_kinds, only : i8
    use axijoint_base_memory, only : free_memory
    use axijoint_base_progress, only : tell_below
@@ -25,17 +25,19 @@ contains
    subroutine run_in_processes(command, codes, n_begun)
       !> Decks and options
       type(command_type), intent(in) :: command
-      !> Exit codes; 128 and the number of a signal that ended a process
+      !> Exit codes; 128 and the number of a signal that ended a process; that of a stop where none was begun
       integer, intent(out) :: codes(:)
       !> Decks that were begun
       integer, intent(out) :: n_begun
 
       type(child_type) :: children(min(command%n_processes, size(codes)))
       integer :: deck_of(size(children))
+      integer(i8) :: mebibytes
       integer :: k
       logical :: ends, asked
 
-      codes = exit_ok
+      mebibytes = max(1_i8, free_memory(command%options%memory_limit)/size(children)/2_i8**20)
+      codes = exit_stopped
       n_begun = 0
       deck_of = 0
       ends = .false.
@@ -51,9 +53,13 @@ contains
                deck_of(k) = 0
             end if
             if (ends .or. n_begun == size(codes)) cycle
+            associate (deck => command%decks(n_begun + 1)%text)
+               children(k) = start_child(words_of_deck(command, deck, size(children), mebibytes))
+               if (children(k)%code >= 0 .and. any(deck_of > 0)) cycle  ! no room for one more now: later
+               if (command%verbose) call tell_below('axijoint: '//deck_name(deck)//' is begun')
+            end associate
             n_begun = n_begun + 1
             deck_of(k) = n_begun
-            children(k) = start_child(words_of_deck(command, command%decks(n_begun)%text, size(children)))
          end do
          if (all(deck_of == 0)) exit
          if (stop_wished() .and. .not. asked) then
@@ -93,19 +99,18 @@ contains
    end function are_apart
 
    !> Words of the process of a deck: the options of this process, but for what divides threads and memory
-   function words_of_deck(command, deck, n_processes) result(words)
+   function words_of_deck(command, deck, n_processes, mebibytes) result(words)
       !> Words and options
       type(command_type), intent(in) :: command
-      !> The deck, and the number of processes
+      !> The deck, the number of processes, and the memory of one
       character(len=*), intent(in) :: deck
       integer, intent(in) :: n_processes
+      integer(i8), intent(in) :: mebibytes
       !> The words, each ended by a zero byte
       character(len=:), allocatable :: words
 
-      integer(i8) :: mebibytes
       integer :: k
 
-      mebibytes = max(1_i8, free_memory(command%options%memory_limit)/n_processes/2_i8**20)
       words = ''
       call add('run')
       call add('--threads')
@@ -117,7 +122,7 @@ contains
          associate (word => command%settings(k)%text)
             if (any(word == [character(len=11) :: '--processes', '--threads', '--memory'])) then
                k = k + 1
-            else
+            else if (word /= '--verbose') then
                call add(word)
             end if
          end associate

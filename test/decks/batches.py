@@ -1,6 +1,7 @@
 """Decks of one call by several processes: the same results, exit codes and words as one after the other"""
 import json
 import os
+import random
 import signal
 import subprocess
 import time
@@ -41,6 +42,7 @@ def same_results(program, folder):
         faults += expected('files', sorted(os.listdir(os.path.join(folder, 'alone'))), sorted(os.listdir(os.path.join(folder, f'by{n}'))))
         faults += [f'{name}: {key} is {value} in one of both' for name, key, value in
                    summaries(os.path.join(folder, 'alone')) ^ summaries(os.path.join(folder, f'by{n}'))]
+        faults += program.run('compare', 'alone/first.h5', f'by{n}/first.h5', '--relative', '0', folder=folder).ended_with(0)
         faults += expected('what is said of decks', blocks(alone.out), blocks(together.out))
         faults += expected('errors', sorted(alone.err.splitlines()), sorted(together.err.splitlines()))
     return faults
@@ -101,6 +103,29 @@ def told_to_end(program, folder):
     return faults + again.ended_with(0) + expected('results', 3, len([name for name in os.listdir(folder) if name.endswith('.h5')]))
 
 
+def told_at_random(program, folder):
+    """A signal at any moment, also while processes begin, ends the batch: either all is done, or the exit code says that it is not"""
+    text, chance, faults, stopped = read_text(os.path.join(INPUTS, 'first.dat')), random.Random(1), [], 0
+    decks = [write(folder, f'{k}.dat', text) for k in range(8)]
+    for turn in range(16):
+        place = os.path.join(folder, str(turn))
+        process = subprocess.Popen([program.path, 'run', *decks, '-o', place, '--processes', '3', '--quiet'], env=program.environment,
+                                   stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, start_new_session=True)
+        time.sleep(chance.uniform(0.02, 0.5))
+        signal_sent = chance.choice((signal.SIGTERM, signal.SIGINT, signal.SIGUSR1))
+        if turn % 2:
+            os.killpg(process.pid, signal_sent)  # as a terminal does
+        else:
+            process.send_signal(signal_sent)
+        _, said = process.communicate(timeout=60)
+        done = len([name for name in os.listdir(place) if name.endswith('.h5')]) if os.path.isdir(place) else 0
+        before = -process.returncode == signal_sent and done == 0  # it had not yet begun to take note of signals
+        if process.returncode != (0 if done == len(decks) else 75) and not before:
+            faults.append(f'exit code {process.returncode} after signal {signal_sent} with {done} of {len(decks)} results: {said}')
+        stopped += process.returncode == 75
+    return faults + ([] if stopped else ['no batch was stopped: the moments are wrong'])
+
+
 def names(program, folder):
     """Results of a combination that would be those of another deck are refused, whoever reads them"""
     text = read_text(os.path.join(INPUTS, 'chimney.dat'))
@@ -115,4 +140,5 @@ def names(program, folder):
 def tests(program):
     """All of them"""
     return [Test(f'batch: {name}', lambda folder, check=check: check(program, folder)) for name, check in (
-        ('same results', same_results), ('a process dies', one_dies), ('told to end', told_to_end), ('names', names))]
+        ('same results', same_results), ('a process dies', one_dies), ('told to end', told_to_end),
+        ('told to end at any moment', told_at_random), ('names', names))]

@@ -429,7 +429,7 @@ contains
       blocks_of = number(n_nodes)
    end function blocks_of
 
-   !> What comes after planning and stays
+   !> What comes after planning and stays, at least until the equations are solved
    elemental integer(i8) function staying(self)
       !> The bytes
       class(footprint_type), intent(in) :: self

@@ -72,6 +72,7 @@ contains
 
       type(held_errors_type) :: under_way
 
+      under_way%began = omp_get_wtime()
       under_way%states = [state]
       allocate (under_way%held(1))
       under_way%held(1)%excess = state%field%excess
@@ -96,6 +97,7 @@ contains
 
       integer :: i
 
+      under_way%began = omp_get_wtime()
       allocate (under_way%states, source=states)
       allocate (under_way%held(size(states)))
       do i = 1, size(states)
@@ -191,7 +193,6 @@ contains
 
       integer :: i
 
-      under_way%began = omp_get_wtime()
       do i = 1, size(under_way%held)
          associate (held => under_way%held(i), state => under_way%states(i))
             call new_difference(size(state%displacement, 2), size(structure%joint_points), size(structure%modes), held%difference)

@@ -194,8 +194,8 @@ contains
          call see_harmonics()
       end subroutine see_in_order
 
-      !> Each by a thread, but for the errors of the mesh, whose systems are for whoever has nothing else to do. None of these tasks
-      !> waits for others, so that no thread is bound to do so
+      !> Each by a thread, but for the errors of the mesh, whose systems are for whoever has nothing else to do. No task
+      !> waits for these, so that no thread is bound to do so
       subroutine see_all_at_once()
          integer :: s
 
