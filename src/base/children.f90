@@ -5,7 +5,7 @@ module axijoint_base_children
    use axijoint_base_text, only : to_text
    implicit none
    private
-   public :: child_type, start_child, look_at_child, ask_to_end, how_it_ended, pause_a_moment, no_program
+   public :: child_type, add_word, start_child, look_at_child, ask_to_end, how_it_ended, pause_a_moment, no_program
 
    !> Exit code of a process that could not be started; those from here on are of signals, less their number
    integer, parameter :: no_program = 127, of_signal = 128
@@ -48,6 +48,16 @@ module axijoint_base_children
    end interface
 
 contains
+
+   !> Add a word to those of a process
+   subroutine add_word(words, word)
+      !> The words, each ended by a zero byte
+      character(len=:), allocatable, intent(inout) :: words
+      !> One more
+      character(len=*), intent(in) :: word
+
+      words = words//word//c_null_char
+   end subroutine add_word
 
    !> Start this program once more, as `axijoint WORDS`. It is asked to end when this process ends
    function start_child(words) result(child)

@@ -110,6 +110,10 @@ contains
 
       text = ''
       if (size(decks) == 1 .or. all(codes == exit_ok)) return
+      if (all(codes(:n) == exit_ok)) then
+         text = 'axijoint: '//to_text(size(decks) - n)//' of '//to_text(size(decks))//' decks were not begun'
+         return
+      end if
       text = 'axijoint: '//to_text(count(codes(:n) /= exit_ok))//' of '//to_text(size(decks))//' decks did not end well:'
       named = 0
       do k = 1, n

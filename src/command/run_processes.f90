@@ -1,7 +1,7 @@
 !> Decks of a run by several processes of this machine, one deck each
 module axijoint_command_run_processes
-   use, intrinsic :: iso_c_binding, only : c_null_char
-   use axijoint_base_children, only : child_type, start_child, look_at_child, ask_to_end, how_it_ended, pause_a_moment, no_program
+   use axijoint_base_children, only : child_type, add_word, start_child, look_at_child, ask_to_end, &
+      how_it_ended, pause_a_moment, no_program
    use axijoint_base_error, only : exit_stopped
    use axijoint_base_kinds, only : i8
    use axijoint_base_memory, only : free_memory
@@ -112,34 +112,24 @@ contains
       integer :: k
 
       words = ''
-      call add('run')
-      call add('--threads')
-      call add(to_text(max(1, omp_get_max_threads()/n_processes)))
-      call add('--memory')
-      call add(to_text(mebibytes))
+      call add_word(words, 'run')
+      call add_word(words, '--threads')
+      call add_word(words, to_text(max(1, omp_get_max_threads()/n_processes)))
+      call add_word(words, '--memory')
+      call add_word(words, to_text(mebibytes))
       k = 1
       do while (k <= size(command%settings))
          associate (word => command%settings(k)%text)
             if (any(word == [character(len=11) :: '--processes', '--threads', '--memory'])) then
                k = k + 1
             else if (word /= '--verbose') then
-               call add(word)
+               call add_word(words, word)
             end if
          end associate
          k = k + 1
       end do
-      call add('--')
-      call add(deck)
-
-   contains
-
-      !> Add a word
-      subroutine add(word)
-         !> The word
-         character(len=*), intent(in) :: word
-
-         words = words//word//c_null_char
-      end subroutine add
+      call add_word(words, '--')
+      call add_word(words, deck)
 
    end function words_of_deck
 

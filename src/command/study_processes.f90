@@ -1,7 +1,6 @@
 !> Rows of a study by several processes of this machine, each a part by itself
 module axijoint_command_study_processes
-   use, intrinsic :: iso_c_binding, only : c_null_char
-   use axijoint_base_children, only : child_type, start_child, look_at_child, ask_to_end, &
+   use axijoint_base_children, only : child_type, add_word, start_child, look_at_child, ask_to_end, &
       how_it_ended, pause_a_moment
    use axijoint_base_error, only : error_type, exit_in_use
    use axijoint_base_kinds, only : wp, i8
@@ -153,14 +152,14 @@ contains
 
       mebibytes = max(1_i8, free_memory(command%options%memory_limit)/part%n/2_i8**20)
       words = ''
-      call add('study')
-      call add('--part')
-      call add(to_text(part%number)//'/'//to_text(part%n))
-      call add('--threads')
-      call add(to_text(max(1, omp_get_max_threads()/part%n)))
-      call add('--memory')
-      call add(to_text(mebibytes))
-      call add('--quiet')
+      call add_word(words, 'study')
+      call add_word(words, '--part')
+      call add_word(words, to_text(part%number)//'/'//to_text(part%n))
+      call add_word(words, '--threads')
+      call add_word(words, to_text(max(1, omp_get_max_threads()/part%n)))
+      call add_word(words, '--memory')
+      call add_word(words, to_text(mebibytes))
+      call add_word(words, '--quiet')
       only_names = .false.
       k = 1
       do while (k <= size(command%words))
@@ -175,20 +174,10 @@ contains
                   cycle
                end if
             end if
-            call add(word)
+            call add_word(words, word)
          end associate
          k = k + 1
       end do
-
-   contains
-
-      !> Add a word
-      subroutine add(word)
-         !> The word
-         character(len=*), intent(in) :: word
-
-         words = words//word//c_null_char
-      end subroutine add
 
    end function words_of_part
 

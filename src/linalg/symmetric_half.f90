@@ -8,7 +8,7 @@ module axijoint_linalg_symmetric_half
    public :: symmetric_half_type, new_half, half_numbers, entry, put_entry, before_column, whole_matrix, &
       add_squares, put_in_order, half_product, half_sparse_product
 
-   !> Columns of a matrix up to which it is one panel: its products take 0.7 times as long, and its size does not count; columns of
+   !> Columns of a matrix up to which it is one panel, which is multiplied faster, and whose size does not count; columns of
    !> a panel of a larger one
    integer, parameter, public :: one_panel = 1536, panel_width = 256
    !> Rows of a panel that the cache holds while they are multiplied both ways

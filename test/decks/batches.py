@@ -92,14 +92,19 @@ def one_dies(program, folder):
 def told_to_end(program, folder):
     """A signal ends all, and `--resume` goes on"""
     decks, process, children = begin_long(program, folder, '--checkpoint', '0')
+    states, end = [os.path.join(folder, f'{name}.state') for name in ('long', 'longer')], time.time() + 60
+    while not all(map(os.path.exists, states)) and time.time() < end:
+        time.sleep(0.01)
     process.send_signal(signal.SIGTERM)
     _, said = process.communicate(timeout=60)
     faults = expected('exit code', 75, process.returncode)
     faults += expected('processes that are left', [], [child for child in children if os.path.exists(f'/proc/{child}')])
     if '; 1 were not begun' not in said:
         faults.append(f'what was not begun is not told: {said}')
+    faults += [f'{path} is gone' for path in states if not os.path.exists(path)]
     faults += expected('locks that are left', [], [name for name in os.listdir(folder) if name.endswith('.lock')])
     again = program.run('run', *decks, '-o', folder, '--processes', '3', '--resume', '--quiet', folder=folder, time_limit=300)
+    faults += [f'not gone on from: {path}' for path in states if f'there is no state {path}' in again.err]
     return faults + again.ended_with(0) + expected('results', 3, len([name for name in os.listdir(folder) if name.endswith('.h5')]))
 
 

@@ -39,6 +39,46 @@ END
 """
 
 
+# A pile in a ring, so many pairs of nodes along its joint, 521 with three components each, that half of the flexibilities is kept
+# (`one_panel` of linalg/symmetric_half.f90)
+LONG_JOINT = """TITLE
+Long joint that slips in part
+CONTROL
+1, 5
+MATERIALS
+1, 2.0E4, 0.2
+2, 50.0, 0.3
+LAWS
+1, 100.0, 200.0, 100.0, 0.0, 26.0
+LAWDETAILS
+1, RESULTANT, , , , , , -0.05
+BLOCKS
+1, 1, 8, 1, 260
+0.0, -10.0, 0.5, 0.0
+2, 2, 8, 2, 260, 4.0
+0.5, -10.0, 10.0, 0.0
+FACES
+1, 1, 0.0, 0.0, 0.5, 0.0
+2, 1, 0.5, -10.0, 0.5, 0.0
+3, 2, 0.5, -10.0, 0.5, 0.0
+4, 2, 10.0, -10.0, 10.0, 0.0
+5, 2, 0.5, -10.0, 10.0, -10.0
+INTERFACES
+1, 2, 3
+FIXEDFACES
+4, 111
+5, 111
+RESULTANTS
+1, LATERAL, 0.2
+1, AXIAL, -0.06
+INCREMENTS
+1.0, 1.0E-8
+PRINT
+ TABLES, ALL
+END
+"""
+
+
 def results(program, folder, deck, *options):
     """Listing, without header, solver and times, and summary of a run"""
     ran = program.run('run', deck, '-o', folder, *options)
@@ -65,7 +105,7 @@ def solver_names(program):
 def solvers_agree(program, folder):
     """Displacements of all solvers differ by rounding"""
     faults = []
-    for deck in (write(folder, 'ring.dat', RING), os.path.join(INPUTS, 'case3.dat')):
+    for deck in (write(folder, 'ring.dat', RING), os.path.join(INPUTS, 'case3.dat'), write(folder, 'long.dat', LONG_JOINT)):
         found = {}
         for solver in solver_names(program):
             tables, summary = results(program, folder, deck, '--solver', solver)
