@@ -10,8 +10,8 @@ module axijoint_model_locate
    public :: locate_points, line_position
 
    !> Share of an element's extent by which its box is widened: for rounding, and
-   !> for curved sides, which may leave the box of their nodes
-   real(wp), parameter :: straight_margin = 1.0e-5_wp, curved_margin = 0.25_wp
+   !> for curved sides, which may leave the box of their nodes; and by which a node may be off the middle of a straight side
+   real(wp), parameter :: straight_margin = 1.0e-5_wp, curved_margin = 0.25_wp, off_middle = 1.0e-6_wp
 
 contains
 
@@ -102,8 +102,8 @@ contains
       associate (x => mesh%coordinates(:, mesh%element_nodes(:n, element)))
          low = minval(x, 2)
          high = maxval(x, 2)
+         span = maxval(high - low)*merge(straight_margin, curved_margin, is_straight(x, off_middle*maxval(high - low)))
       end associate
-      span = maxval(high - low)*merge(straight_margin, curved_margin, n == n_corners(n))
       low = low - span
       high = high + span
       t = [0.0_wp, 1.0_wp]
@@ -123,6 +123,23 @@ contains
       from = ceiling(t(1)*(line%n_points - 1)) + 1
       to = floor(t(2)*(line%n_points - 1)) + 1
    end subroutine points_near
+
+   !> Whether the sides of an element are straight, their nodes in the middle: then it is no larger than its corners say
+   pure logical function is_straight(x, rounding)
+      !> r and z of its nodes, shape (2, nodes)
+      real(wp), intent(in) :: x(:, :)
+      !> How far a node may be off [length]
+      real(wp), intent(in) :: rounding
+
+      integer :: side, n
+
+      n = n_corners(size(x, 2))
+      is_straight = .true.
+      do side = 1, min(n, size(x, 2) - n)
+         is_straight = is_straight .and. all(abs(2.0_wp*x(:, n + side) - x(:, side) - x(:, mod(side, n) + 1)) <= 2.0_wp*rounding)
+      end do
+      if (size(x, 2) == 9) is_straight = is_straight .and. all(abs(4.0_wp*x(:, 9) - sum(x(:, :4), 2)) <= 4.0_wp*rounding)
+   end function is_straight
 
    !> Whether two elements are of the same body and material
    pure logical function same_solid(mesh, a, b)

@@ -2,24 +2,28 @@
 module axijoint_analysis_fine_block_groups
    use axijoint_analysis_fine_conditions, only : conditions_type
    use axijoint_assembly_product_stiffness, only : product_stiffness_type
-   use axijoint_base_kinds, only : i8
+   use axijoint_base_kinds, only : wp, i8
    use axijoint_base_sort, only : refine_order
-   use axijoint_linalg_band_cholesky, only : n_lanes
+   use axijoint_linalg_node_envelope, only : n_lanes, panel_size
    use axijoint_order_graph, only : graph_type
    implicit none
    private
-   public :: block_groups_type, new_blocks_in_order, group_blocks, n_nodes_of, factor_size, least_same
+   public :: block_groups_type, new_blocks_in_order, group_blocks, n_nodes_of, least_same
 
    !> Blocks of a kind from which on they have a factor together
    integer, parameter :: least_same = 4
+   !> Numbers of factors in a group of blocks of alike shape, over those of the blocks, at most: eight at once are made in less than
+   !> half the time of eight one by one
+   real(wp), parameter :: most_padding = 2.0_wp
    !> Places of the table in which kinds are looked up, for every block, and what brings them to different places
    integer, parameter :: places_of_block = 4
    integer(i8), parameter :: scatter = 1000003, modulus = 2147483647
 
    !> Blocks of nodes that follow each other
    type :: block_groups_type
-      !> First node of each block, shape (blocks + 1), and how far apart neighbours in it are
-      integer, allocatable :: first(:), width(:)
+      !> First node of each block, shape (blocks + 1), and the last node of the block that the columns of each node reach in its
+      !> factor: no column ends before one in front of it. Shape (nodes)
+      integer, allocatable :: first(:), reach(:)
       !> Congruent elements that have nodes of a block, from first_element(block) on
       integer, allocatable :: first_element(:), element(:)
       !> Kind of each block: blocks of one have the same stiffness
@@ -27,16 +31,19 @@ module axijoint_analysis_fine_block_groups
       !> Blocks of one kind, `n_lanes` of them a group, the last of them again where there are fewer, groups of one kind one after the
       !> other; first group of each kind, and their end. Shapes (n_lanes, groups) and (kinds + 1)
       integer, allocatable :: same(:, :), first_same(:)
-      !> The others of one shape, `n_lanes` of them a group, and the blocks that are left; groups and blocks in
+      !> The others of alike shapes, `n_lanes` of them a group, and the blocks that are left; groups and blocks in
       !> the order of their first nodes. Shapes (n_lanes, groups) and (left)
       integer, allocatable :: groups(:, :), left(:)
-      !> Where the factors of each kind begin, then those of each group, then of each block that is left, and their end
+      !> Envelopes of the factors of each kind, then of each group, then of each block that is left: how many nodes behind each
+      !> its columns reach; where each begins, and their end
+      integer, allocatable :: below(:), envelope(:)
+      !> Where the factors of these begin, and their end
       integer(i8), allocatable :: start(:)
    end type block_groups_type
 
 contains
 
-   !> Where blocks begin, how wide they are, and which have the same stiffness
+   !> Where blocks begin, how far their columns reach, and which have the same stiffness
    subroutine new_blocks_in_order(stiffness, graph, block, order, blocks)
       !> The stiffness, laid out
       type(product_stiffness_type), intent(in) :: stiffness
@@ -49,17 +56,20 @@ contains
       !> The blocks; how they are grouped is for `group_blocks`
       type(block_groups_type), intent(out) :: blocks
 
-      integer :: k, l, b
+      integer :: k, l, b, last
 
       associate (begins => [.true., block(order(2:)) /= block(order(:size(order) - 1))])
          blocks%first = [pack([(k, k=1, size(order))], begins), size(order) + 1]
       end associate
-      allocate (blocks%width(size(blocks%first) - 1), source=0)
-      do b = 1, size(blocks%width)
+      allocate (blocks%reach(size(order)))
+      do b = 1, size(blocks%first) - 1
+         last = 0
          do k = blocks%first(b), blocks%first(b + 1) - 1
+            last = max(last, k)
             do l = graph%start(order(k)), graph%start(order(k) + 1) - 1
-               blocks%width(b) = max(blocks%width(b), k - stiffness%place(graph%neighbour(l)))
+               last = max(last, stiffness%place(graph%neighbour(l)))
             end do
+            blocks%reach(k) = last
          end do
       end do
       call list_elements(stiffness, blocks)
@@ -73,9 +83,9 @@ contains
       !> The blocks; takes the lists
       type(block_groups_type), intent(inout) :: blocks
 
-      integer :: block(size(stiffness%place)), next(size(blocks%width)), pass, b, i, k
+      integer :: block(size(stiffness%place)), next(size(blocks%first) - 1), pass, b, i, k
 
-      do b = 1, size(blocks%width)
+      do b = 1, size(next)
          block(blocks%first(b):blocks%first(b + 1) - 1) = b
       end do
       next = 0
@@ -110,7 +120,7 @@ contains
       integer :: b, n, place
       logical :: known
 
-      allocate (blocks%kind(size(blocks%width)), last(places_of_block*size(blocks%width)))
+      allocate (blocks%kind(size(blocks%first) - 1), last(places_of_block*(size(blocks%first) - 1)))
       last = 0
       n = 0
       do b = 1, size(blocks%kind)
@@ -162,10 +172,12 @@ contains
       integer :: i, k, shift, rows(2)
 
       associate (elements => stiffness%congruent, n => blocks%first_element(a + 1) - blocks%first_element(a))
-         same = n_nodes_of(blocks, a) == n_nodes_of(blocks, b) .and. blocks%width(a) == blocks%width(b) &
+         same = n_nodes_of(blocks, a) == n_nodes_of(blocks, b) &
             .and. n == blocks%first_element(b + 1) - blocks%first_element(b)
          if (same) same = .not. (has_rest(stiffness, blocks, a) .or. has_rest(stiffness, blocks, b))
          shift = blocks%first(b) - blocks%first(a)
+         if (same) same = all(blocks%reach(blocks%first(b):blocks%first(b + 1) - 1) &
+            == blocks%reach(blocks%first(a):blocks%first(a + 1) - 1) + shift)
          do k = 0, n - 1
             if (.not. same) return
             associate (one => blocks%element(blocks%first_element(a) + k), other => blocks%element(blocks%first_element(b) + k))
@@ -193,7 +205,7 @@ contains
       end associate
    end function has_rest
 
-   !> Put blocks that are the same, and others of one shape, into groups
+   !> Put blocks that are the same, and others of alike shapes, into groups, and see what room their factors take
    pure subroutine group_blocks(conditions, blocks)
       !> Conditions of all classes of modes
       type(conditions_type), intent(in) :: conditions(:)
@@ -201,22 +213,58 @@ contains
       type(block_groups_type), intent(inout) :: blocks
 
       logical :: grouped(size(blocks%kind))
-      integer(i8), allocatable :: sizes(:)
-      integer :: k
+      integer, allocatable :: some(:)
+      integer :: n_kinds, n_groups, n, u
 
       call group_the_same(conditions, blocks, grouped)
-      call group_by_shape(blocks, grouped)
-      associate (first_same => blocks%first_same(:size(blocks%first_same) - 1))
-         sizes = [(factor_size(blocks, blocks%same(1, first_same(k))), k=1, size(first_same)), &
-            (n_lanes*factor_size(blocks, blocks%groups(1, k)), k=1, size(blocks%groups, 2)), &
-            (factor_size(blocks, blocks%left(k)), k=1, size(blocks%left))]
-      end associate
-      allocate (blocks%start(size(sizes) + 1))
+      call group_alike(blocks, grouped)
+      n_kinds = size(blocks%first_same) - 1
+      n_groups = size(blocks%groups, 2)
+      n = n_kinds + n_groups + size(blocks%left)
+      if (allocated(blocks%start)) deallocate (blocks%below, blocks%envelope, blocks%start)
+      allocate (blocks%envelope(n + 1), blocks%start(n + 1))
+      allocate (blocks%below(size(blocks%reach)))  ! envelopes of groups are no longer than their blocks together
+      blocks%envelope(1) = 1
       blocks%start(1) = 1
-      do k = 1, size(sizes)
-         blocks%start(k + 1) = blocks%start(k) + sizes(k)
+      do u = 1, n
+         if (u <= n_kinds) then
+            some = blocks%same(:1, blocks%first_same(u))
+         else if (u <= n_kinds + n_groups) then
+            some = blocks%groups(:, u - n_kinds)
+         else
+            some = blocks%left(u - n_kinds - n_groups:u - n_kinds - n_groups)
+         end if
+         associate (below => envelope_of(blocks, some))
+            blocks%envelope(u + 1) = blocks%envelope(u) + size(below)
+            blocks%below(blocks%envelope(u):blocks%envelope(u + 1) - 1) = below
+            blocks%start(u + 1) = blocks%start(u) + size(some)*sum(panel_size(below))
+         end associate
       end do
+      blocks%below = blocks%below(:blocks%envelope(n + 1) - 1)
    end subroutine group_blocks
+
+   !> Envelope that holds those of some blocks: how many nodes behind each its columns reach
+   pure function envelope_of(blocks, some) result(below)
+      !> The blocks, and some of them
+      type(block_groups_type), intent(in) :: blocks
+      integer, intent(in) :: some(:)
+      !> Shape (nodes of the longest)
+      integer, allocatable :: below(:)
+
+      integer :: k, l, last
+
+      allocate (below(maxval(n_nodes_of(blocks, some))))
+      last = 0
+      do k = 1, size(below)
+         last = max(last, k)
+         do l = 1, size(some)
+            associate (first => blocks%first(some(l)))
+               if (k <= n_nodes_of(blocks, some(l))) last = max(last, blocks%reach(first + k - 1) - first + 1)
+            end associate
+         end do
+         below(k) = last - k
+      end do
+   end function envelope_of
 
    !> Put blocks that are the same, none of whose nodes is held or tied, into groups
    pure subroutine group_the_same(conditions, blocks, grouped)
@@ -279,55 +327,59 @@ contains
       end do
    end subroutine find_free
 
-   !> Put the other blocks of one shape into groups
-   pure subroutine group_by_shape(blocks, grouped)
+   !> Put the other blocks into groups of alike shapes, whose factors together are not much larger than theirs one by one
+   pure subroutine group_alike(blocks, grouped)
       !> The blocks; takes the groups
       type(block_groups_type), intent(inout) :: blocks
       !> Which blocks are in one
       logical, intent(inout) :: grouped(:)
 
       integer, allocatable :: by_shape(:), groups(:, :), order(:)
-      integer :: b, k, n
+      integer :: own(size(grouped)), b, k, n
 
-      associate (width => blocks%width)
-         n = size(width)
-         by_shape = pack([(b, b=1, n)], .not. grouped)
-         call refine_order(by_shape, blocks%first(2:) - blocks%first(:n))
-         call refine_order(by_shape, width)
-         allocate (groups(n_lanes, size(by_shape)/n_lanes))
-         n = 0
-         k = 1
-         do while (k + n_lanes - 1 <= size(by_shape))
-            associate (a => by_shape(k), z => by_shape(k + n_lanes - 1))
-               if (width(a) == width(z) .and. n_nodes_of(blocks, a) == n_nodes_of(blocks, z)) then
-                  n = n + 1
-                  groups(:, n) = by_shape(k:k + n_lanes - 1)
-                  grouped(groups(:, n)) = .true.
-                  k = k + n_lanes
-               else
-                  k = k + 1
-               end if
-            end associate
-         end do
-         order = [(k, k=1, n)]
-         call refine_order(order, groups(1, :n))
-         blocks%groups = groups(:, order)
-         blocks%left = pack([(b, b=1, size(width))], .not. grouped)
-      end associate
-   end subroutine group_by_shape
+      by_shape = pack([(b, b=1, size(grouped))], .not. grouped)
+      own = 0
+      do k = 1, size(by_shape)
+         own(by_shape(k)) = size_of(by_shape(k:k))
+      end do
+      call refine_order(by_shape, own)
+      call refine_order(by_shape, blocks%first(2:) - blocks%first(:size(grouped)))
+      allocate (groups(n_lanes, size(by_shape)/n_lanes))
+      n = 0
+      k = 1
+      do while (k + n_lanes - 1 <= size(by_shape))
+         associate (some => by_shape(k:k + n_lanes - 1))
+            if (n_lanes*size_of(some) <= most_padding*sum(own(some))) then
+               n = n + 1
+               groups(:, n) = some
+               grouped(some) = .true.
+               k = k + n_lanes
+            else
+               k = k + 1
+            end if
+         end associate
+      end do
+      order = [(k, k=1, n)]
+      call refine_order(order, groups(1, :n))
+      blocks%groups = groups(:, order)
+      blocks%left = pack([(b, b=1, size(grouped))], .not. grouped)
 
-   !> Numbers of the factor of a block
-   pure integer(i8) function factor_size(blocks, b)
-      !> The blocks
-      type(block_groups_type), intent(in) :: blocks
-      !> The block
-      integer, intent(in) :: b
+   contains
 
-      factor_size = 9_i8*(blocks%width(b) + 1)*n_nodes_of(blocks, b)
-   end function factor_size
+      !> Pairs of nodes in the envelope of some blocks
+      pure integer function size_of(some)
+         !> The blocks
+         integer, intent(in) :: some(:)
+
+         associate (below => envelope_of(blocks, some))
+            size_of = size(below) + sum(below)
+         end associate
+      end function size_of
+
+   end subroutine group_alike
 
    !> Nodes of a block
-   pure integer function n_nodes_of(blocks, b)
+   elemental integer function n_nodes_of(blocks, b)
       !> The blocks
       type(block_groups_type), intent(in) :: blocks
       !> The block

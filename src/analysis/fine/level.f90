@@ -17,7 +17,7 @@ module axijoint_analysis_fine_level
    use axijoint_element_joint, only : new_joint_point, lower_node
    use axijoint_fe_mode, only : mode_type
    use axijoint_fe_shape, only : lagrange
-   use axijoint_linalg_band_cholesky, only : factor_band, solve_band
+   use axijoint_linalg_lapack, only : dpbtrf, dpbtrs
    use axijoint_model_joint_points, only : model_joint_point_type, new_joint_points, joint_rule, stiffest_sliding
    use axijoint_model_mesh, only : mesh_type
    use axijoint_model_model, only : model_type
@@ -257,7 +257,7 @@ contains
    end subroutine place_joint_points
 
    !> Values at the points of a joint of the polynomial through them that is nearest to values at those of its halves
-   pure function nearest_polynomial(x, weight) result(factors)
+   function nearest_polynomial(x, weight) result(factors)
       !> Points of the joint, on [-1, 1]
       real(wp), intent(in) :: x(:)
       !> Weights of those of its halves, one half after the other
@@ -281,10 +281,8 @@ contains
       do i = 1, n
          below(:n - i, i) = matrix(i:, i)
       end do
-      call factor_band(n, n - 1, below, info)
-      do i = 1, 2*n
-         call solve_band(n, n - 1, below, right(:, i))
-      end do
+      call dpbtrf('L', n, n - 1, below, n, info)
+      call dpbtrs('L', n, n - 1, 2*n, below, n, right, n, info)
       factors = transpose(right)
    end function nearest_polynomial
 

@@ -1,21 +1,19 @@
 !> Factors of blocks of nodes of the fine mesh: what a cheap part of the error can be found with, while the
 !> coarse mesh finds the rest
 module axijoint_analysis_fine_smoother
-   use axijoint_analysis_fine_block_groups, only : block_groups_type, n_nodes_of, factor_size
+   use axijoint_analysis_fine_block_groups, only : block_groups_type, n_nodes_of
    use axijoint_analysis_fine_conditions, only : conditions_type
-   use axijoint_assembly_block_parts, only : harmonic_factors, evaluate
+   use axijoint_assembly_block_parts, only : harmonic_factors
+   use axijoint_assembly_envelope_fill, only : fill_envelope, all_free, tied_state
    use axijoint_assembly_product_stiffness, only : product_stiffness_type
    use axijoint_base_kinds, only : wp, i8
    use axijoint_base_large_pages, only : use_large_pages
    use axijoint_base_ranges, only : range_end
-   use axijoint_linalg_band_cholesky, only : factor_band, solve_band, n_lanes, factor_bands, solve_bands, solve_with_one
-   use axijoint_linalg_lapack, only : dpbtrf
+   use axijoint_linalg_node_envelope, only : n_lanes, factor_envelope, factor_envelopes, solve_envelope, &
+      solve_envelopes, solve_with_one
    implicit none
    private
    public :: factor_blocks, solve_blocks
-
-   !> Half-bandwidth from which on a block is worth a call of LAPACK: of a thin wall
-   integer, parameter :: wide = 40
 
    !> Most shares that threads take, and groups of a share at least
    integer, parameter :: most_shares = 16, least_share = 64
@@ -37,7 +35,7 @@ contains
       !> Whether one of them is singular
       logical, intent(out) :: failed
 
-      logical, allocatable :: plain(:)
+      integer, allocatable :: state(:)
       logical :: singular(most_shares)
       integer :: k, n
 
@@ -47,12 +45,17 @@ contains
             call use_large_pages(factor)
          end if
       end associate
-      plain = all(conditions%free, 1) .and. .not. conditions%tied
+      allocate (state(size(conditions%tied)), source=all_free)
+      do k = 1, size(conditions%held)
+         associate (node => conditions%held(k))
+            state(node) = sum([1, 2, 4], conditions%free(:, node)) + merge(tied_state, 0, conditions%tied(node))
+         end associate
+      end do
       n = n_shares(blocks)
       singular = .false.
       do k = 1, n
          !$omp task default(shared) firstprivate(k) if (n > 1)
-         call factor_share(blocks, stiffness, harmonic_factors(harmonic), conditions, plain, k, n, factor, singular(k))
+         call factor_share(blocks, stiffness, harmonic_factors(harmonic), state, k, n, factor, singular(k))
          !$omp end task
       end do
       !$omp taskwait
@@ -68,16 +71,15 @@ contains
    end function n_shares
 
    !> Factor one share of kinds, of groups and of blocks that are left
-   subroutine factor_share(blocks, stiffness, factors, conditions, plain, share, n, factor, failed)
+   subroutine factor_share(blocks, stiffness, factors, state, share, n, factor, failed)
       !> The blocks
       type(block_groups_type), intent(in) :: blocks
       !> The stiffness
       type(product_stiffness_type), intent(in) :: stiffness
       !> Factors of its parts in the harmonic
       real(wp), intent(in) :: factors(3)
-      !> Components that are free, and whether nodes are free in all
-      type(conditions_type), intent(in) :: conditions
-      logical, intent(in) :: plain(:)
+      !> What is said of each node
+      integer, intent(in) :: state(:)
       !> The share, and how many there are
       integer, intent(in) :: share, n
       !> The factors
@@ -85,144 +87,48 @@ contains
       !> Whether one of them is singular
       logical, intent(inout) :: failed
 
-      logical :: singular
-      integer :: k, l
+      integer :: u
 
       associate (n_kinds => size(blocks%first_same) - 1, n_groups => size(blocks%groups, 2), n_left => size(blocks%left))
-         do k = 1 + range_end(n_kinds, share - 1, n), range_end(n_kinds, share, n)
-            call factor_one(blocks%same(1, blocks%first_same(k)), factor(blocks%start(k)))
+         do u = 1 + range_end(n_kinds, share - 1, n), range_end(n_kinds, share, n)
+            call factor_some(u, [blocks%same(1, blocks%first_same(u))])
          end do
-         do k = 1 + range_end(n_groups, share - 1, n), range_end(n_groups, share, n)
-            associate (start => blocks%start(n_kinds + k), group => blocks%groups(:, k))
-               associate (nodes => n_nodes_of(blocks, group(1)), width => 3*blocks%width(group(1)) + 2)
-                  factor(start:blocks%start(n_kinds + k + 1) - 1) = 0.0_wp
-                  do l = 1, n_lanes
-                     call fill_block(blocks, stiffness, factors, conditions, plain, group(l), nodes, width, n_lanes, l, &
-                        factor(start))
-                  end do
-                  call factor_bands(3*nodes, width, factor(start), singular)
-               end associate
-            end associate
-            failed = failed .or. singular
+         do u = n_kinds + 1 + range_end(n_groups, share - 1, n), n_kinds + range_end(n_groups, share, n)
+            call factor_some(u, blocks%groups(:, u - n_kinds))
          end do
-         do k = 1 + range_end(n_left, share - 1, n), range_end(n_left, share, n)
-            call factor_one(blocks%left(k), factor(blocks%start(n_kinds + n_groups + k)))
+         do u = n_kinds + n_groups + 1 + range_end(n_left, share - 1, n), n_kinds + n_groups + range_end(n_left, share, n)
+            call factor_some(u, [blocks%left(u - n_kinds - n_groups)])
          end do
       end associate
 
    contains
 
-      !> Factor a block by itself
-      subroutine factor_one(b, factor)
-         !> The block
-         integer, intent(in) :: b
-         !> Its factor
-         real(wp), intent(inout) :: factor(*)
+      !> Factor one block, or some at once
+      subroutine factor_some(u, some)
+         !> Place of their envelope, and they
+         integer, intent(in) :: u, some(:)
 
-         integer :: info
+         logical :: singular
+         integer :: l
 
-         associate (nodes => n_nodes_of(blocks, b), width => 3*blocks%width(b) + 2)
-            factor(:factor_size(blocks, b)) = 0.0_wp
-            call fill_block(blocks, stiffness, factors, conditions, plain, b, nodes, width, 1, 1, factor)
-            if (width >= wide) then
-               call dpbtrf('L', 3*nodes, width, factor, width + 1, info)
+         associate (below => blocks%below(blocks%envelope(u):blocks%envelope(u + 1) - 1), start => blocks%start(u))
+            factor(start:blocks%start(u + 1) - 1) = 0.0_wp
+            do l = 1, size(some)
+               associate (b => some(l))
+                  call fill_envelope(stiffness, factors, state, blocks%first(b), blocks%first(b + 1) - 1, &
+                     blocks%element(blocks%first_element(b):blocks%first_element(b + 1) - 1), below, size(some), l, factor(start))
+               end associate
+            end do
+            if (size(some) == 1) then
+               call factor_envelope(size(below), below, factor(start), singular)
             else
-               call factor_band(3*nodes, width, factor, info)
+               call factor_envelopes(size(below), below, factor(start), singular)
             end if
          end associate
-         failed = failed .or. info > 0
-      end subroutine factor_one
+         failed = failed .or. singular
+      end subroutine factor_some
 
    end subroutine factor_share
-
-   !> Add a block to a band matrix of zeros; what is held has an equation of its own
-   subroutine fill_block(blocks, stiffness, factors, conditions, plain, b, n, width, lanes, lane, a)
-      !> The blocks
-      type(block_groups_type), intent(in) :: blocks
-      !> The stiffness
-      type(product_stiffness_type), intent(in) :: stiffness
-      !> Factors of its parts in the harmonic
-      real(wp), intent(in) :: factors(3)
-      !> Components that are free, and whether nodes are free in all
-      type(conditions_type), intent(in) :: conditions
-      logical, intent(in) :: plain(:)
-      !> The block, its nodes, half-bandwidth
-      integer, intent(in) :: b, n, width
-      !> Matrices that lie number beside number, and which of them is filled
-      integer, intent(in) :: lanes, lane
-      !> Lower triangles
-      real(wp), intent(inout) :: a(lanes, 0:width, 3*n)
-
-      real(wp) :: block(3, 3)
-      integer(i8) :: l, p
-      integer :: i, j, k, first, last
-
-      first = blocks%first(b)
-      last = first + n - 1
-      associate (rest => stiffness%blocks)
-         do i = first, last
-            do l = rest%start(i, 2), rest%start(i + 1, 2) - 1
-               call evaluate(factors, rest%parts(:, l), block)
-               call add(i, rest%column(l))
-            end do
-         end do
-      end associate
-      associate (congruent => stiffness%congruent)
-         do k = blocks%first_element(b), blocks%first_element(b + 1) - 1
-            associate (rows => congruent%row(:congruent%n_nodes(blocks%element(k)), blocks%element(k)))
-               p = congruent%start(blocks%element(k)) - 1
-               do j = 1, size(rows)
-                  if (rows(j) >= first .and. rows(j) <= last) then
-                     do i = j, size(rows)
-                        if (rows(i) < first .or. rows(i) > last) cycle
-                        call evaluate(factors, congruent%parts(:, p + i - j + 1), block)
-                        if (rows(i) < rows(j)) block = transpose(block)
-                        call add(max(rows(i), rows(j)), min(rows(i), rows(j)))
-                     end do
-                  end if
-                  p = p + size(rows) - j + 1
-               end do
-            end associate
-         end do
-      end associate
-      do i = first, last
-         do k = 1, 3
-            if (.not. conditions%free(k, i)) a(lane, 0, 3*(i - first) + k) = 1.0_wp
-         end do
-      end do
-
-   contains
-
-      !> Add what two nodes have of each other
-      subroutine add(i, j)
-         !> Row and column
-         integer, intent(in) :: i, j
-
-         integer :: row, column
-
-         if (plain(i) .and. plain(j) .and. i /= j) then
-            do column = 1, 3
-               do row = 1, 3
-                  associate (entry => a(lane, 3*(i - j) + row - column, 3*(j - first) + column))
-                     entry = entry + block(column, row)
-                  end associate
-               end do
-            end do
-            return
-         end if
-         if (conditions%tied(j)) block(1, :) = block(1, :) - block(3, :)
-         if (conditions%tied(i)) block(:, 1) = block(:, 1) - block(:, 3)
-         do row = 1, 3
-            do column = 1, merge(row, 3, i == j)
-               if (.not. (conditions%free(row, i) .and. conditions%free(column, j))) cycle
-               associate (entry => a(lane, 3*(i - j) + row - column, 3*(j - first) + column))
-                  entry = entry + block(column, row)
-               end associate
-            end do
-         end do
-      end subroutine add
-
-   end subroutine fill_block
 
    !> Solve for every block
    subroutine solve_blocks(blocks, factor, x)
@@ -256,43 +162,47 @@ contains
       real(wp), intent(inout) :: x(3, *)
 
       real(wp), allocatable :: side(:, :)
-      integer :: g, k, l
+      integer :: g, u
 
       allocate (side(n_lanes, 3*longest_group(blocks)))
       associate (n_kinds => size(blocks%first_same) - 1, n_groups => size(blocks%groups, 2), n_left => size(blocks%left))
-         do k = 1 + range_end(n_kinds, share - 1, n), range_end(n_kinds, share, n)
-            do g = blocks%first_same(k), blocks%first_same(k + 1) - 1
-               call take_lanes(blocks%same(:, g))
-               associate (one => blocks%same(1, g))
-                  call solve_with_one(3*n_nodes_of(blocks, one), 3*blocks%width(one) + 2, factor(blocks%start(k)), side)
-               end associate
-               call give_lanes(blocks%same(:, g))
-            end do
-         end do
-         do g = 1 + range_end(n_groups, share - 1, n), range_end(n_groups, share, n)
-            call take_lanes(blocks%groups(:, g))
-            associate (one => blocks%groups(1, g))
-               call solve_bands(3*n_nodes_of(blocks, one), 3*blocks%width(one) + 2, factor(blocks%start(n_kinds + g)), side)
+         do u = 1 + range_end(n_kinds, share - 1, n), range_end(n_kinds, share, n)
+            associate (below => blocks%below(blocks%envelope(u):blocks%envelope(u + 1) - 1))
+               do g = blocks%first_same(u), blocks%first_same(u + 1) - 1
+                  call take_lanes(blocks%same(:, g), size(below))
+                  call solve_with_one(size(below), below, factor(blocks%start(u)), side)
+                  call give_lanes(blocks%same(:, g))
+               end do
             end associate
-            call give_lanes(blocks%groups(:, g))
          end do
-         do k = 1 + range_end(n_left, share - 1, n), range_end(n_left, share, n)
-            associate (b => blocks%left(k))
-               call solve_band(3*n_nodes_of(blocks, b), 3*blocks%width(b) + 2, factor(blocks%start(n_kinds + n_groups + k)), &
-                  x(1, blocks%first(b)))
+         do u = n_kinds + 1 + range_end(n_groups, share - 1, n), n_kinds + range_end(n_groups, share, n)
+            associate (below => blocks%below(blocks%envelope(u):blocks%envelope(u + 1) - 1), group => blocks%groups(:, u - n_kinds))
+               call take_lanes(group, size(below))
+               call solve_envelopes(size(below), below, factor(blocks%start(u)), side)
+               call give_lanes(group)
+            end associate
+         end do
+         do u = n_kinds + n_groups + 1 + range_end(n_left, share - 1, n), n_kinds + n_groups + range_end(n_left, share, n)
+            associate (below => blocks%below(blocks%envelope(u):blocks%envelope(u + 1) - 1))
+               call solve_envelope(size(below), below, factor(blocks%start(u)), &
+                  x(1, blocks%first(blocks%left(u - n_kinds - n_groups))))
             end associate
          end do
       end associate
 
    contains
 
-      !> Put forces of some blocks beside each other
-      subroutine take_lanes(group)
-         !> The blocks
-         integer, intent(in) :: group(n_lanes)
+      !> Put forces of some blocks beside each other; none on nodes that others have more
+      subroutine take_lanes(group, longest)
+         !> The blocks, and nodes of the longest
+         integer, intent(in) :: group(n_lanes), longest
+
+         integer :: l, n
 
          do l = 1, n_lanes
-            call take_lane(n_nodes_of(blocks, group(1)), x(1, blocks%first(group(l))), l, side)
+            n = n_nodes_of(blocks, group(l))
+            call take_lane(n, x(1, blocks%first(group(l))), l, side)
+            side(l, 3*n + 1:3*longest) = 0.0_wp
          end do
       end subroutine take_lanes
 
@@ -301,8 +211,10 @@ contains
          !> The blocks
          integer, intent(in) :: group(n_lanes)
 
+         integer :: l
+
          do l = 1, n_lanes
-            call give_lane(n_nodes_of(blocks, group(1)), side, l, x(1, blocks%first(group(l))))
+            call give_lane(n_nodes_of(blocks, group(l)), side, l, x(1, blocks%first(group(l))))
          end do
       end subroutine give_lanes
 
@@ -313,10 +225,11 @@ contains
       !> The blocks
       type(block_groups_type), intent(in) :: blocks
 
-      integer :: g
+      integer :: u
 
-      longest_group = maxval([0, (n_nodes_of(blocks, blocks%groups(1, g)), g=1, size(blocks%groups, 2)), &
-         (n_nodes_of(blocks, blocks%same(1, g)), g=1, size(blocks%same, 2))])
+      associate (n => size(blocks%first_same) - 1 + size(blocks%groups, 2))
+         longest_group = maxval([0, (blocks%envelope(u + 1) - blocks%envelope(u), u=1, n)])
+      end associate
    end function longest_group
 
    !> Put forces of one block beside those of others
