@@ -213,6 +213,7 @@ def whole(args):
               + f"  {100*sum(least.values())/run.clock:3.0f}%  {100*touching/run.clock:11.0f}%")
     text(args)
     start(args)
+    pauses(args)
     batches(args)
     return rows
 
@@ -260,6 +261,22 @@ def start(args):
         if found:
             arrays, attributes, least, median = found
             print(f"  its {arrays} arrays and {attributes} attributes by HDF5 alone, which is started already: {least}, {median} by the clock")
+
+
+def pauses(args):
+    """Runs after a pause beside runs that follow at once, by turns; medians by the clock. Hosts of virtual machines may take memory
+    that nobody uses, and give it back page by page when it is first touched: who starts one run waits for that"""
+    seconds = 4.0
+    print(f"after a pause of {seconds:.0f} s: milliseconds, of a run that follows at once, ratio, peak memory [MB]")
+    for job, make in {"inputs/first.dat": lambda: estimate_decks.inputs("first"), **{name: JOBS[name] for name in ("case 3, 4 times", "linear 30k")}}.items():
+        rested, next_one = (Run(args.axijoint, make()) for _ in range(2))
+        for _ in range(args.rounds):
+            time.sleep(seconds)
+            rested.once()
+            next_one.once()
+        first, second = rested.finish(), next_one.finish()
+        print(f"  {job:26} {1e3*first.clock:8.1f} {1e3*second.clock:8.1f}   {first.clock/second.clock:.2f} {first.summary['peak_memory_mb']:6.0f}",
+              flush=True)
 
 
 def batches(args):

@@ -279,7 +279,7 @@ def read_once(program, folder):
         results = os.path.join(folder, 'results')
         environment = dict(program.environment, LD_PRELOAD=library, FOLDER=results, TIMES_IN=told)
         for run in ('the first', 'the next'):
-            subprocess.run([program.path, 'run', deck, '-o', results, '--quiet'], env=environment, check=True, timeout=60)
+            subprocess.run([program.path, 'run', deck, '-o', results, '--quiet'], env=environment, check=True, capture_output=True, timeout=60)
             faults += expected(f'{name}: {run} run reads it', 1, int(read_text(told)))
     return faults
 
