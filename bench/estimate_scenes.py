@@ -123,6 +123,15 @@ def chimney(setting, m=1, thickness=0.05):
     return scene.add("FIXEDFACES", "1, 111").add("TRACTIONS", f"2, {m}, 1, .2").text()
 
 
+def rim(setting, m=0, thickness=0.001, across=1, along=32):
+    """A very thin tube whose elements are about as long as what bends at its rim, which is pressed like cos m theta"""
+    scene = Scene("Rim", setting).add("HARMONICS", str(m)).add("MATERIALS", "1, 1e5, 0.3")
+    inner, outer = 1 - thickness/2, 1 + thickness/2
+    scene.block(1, 1, across, along, (inner, 0, outer, 1), (0, 1 if setting.grade > 1 else 0))
+    scene.add("FACES", f"1, 1, {inner}, 0, {outer}, 0", f"2, 1, {inner}, 1, {outer}, 1")
+    return scene.add("FIXEDFACES", "2, 111" if m else "2, 010").add("TRACTIONS", f"1, {m}, {1/thickness:g}").text()
+
+
 def plate(setting, m=2):
     """A thin disc, held at its rim and pressed by cos m theta: one or two elements bend"""
     scene = Scene("Plate", setting).add("HARMONICS", str(m)).add("MATERIALS", "1, 2e5, 0.3")

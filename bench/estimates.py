@@ -88,6 +88,12 @@ def mesh_rows():
             setting = replace(linear, kind=kind, harmonic=m)
             yield row(f"chimney, m = {m}", scenes.chimney, setting, setting.fine(n=12), m=m)
         yield row("pipe pile", scenes.pipe_pile, Setting(kind), Setting().fine(n=3))
+    for kind in ("6", "8", "9"):
+        for m, thickness, across, along in ((0, 0.01, 1, 8), (0, 0.003, 1, 12), (0, 0.003, 3, 12), (0, 0.001, 1, 20), (1, 0.001, 1, 32),
+                                            (2, 0.001, 2, 32), (0, 0.0003, 1, 64)):
+            setting = replace(linear, kind=kind, harmonic=m)
+            yield row(f"rim, wall {thickness}, {across} x {along}, m = {m}", scenes.rim, setting, setting.fine(n=5, grade=10.0), m=m,
+                      thickness=thickness, across=across, along=along)
     for kind in ("4", "8"):
         for name, steps in HISTORIES.items():
             yield row(f"pile in the ground, {name}", scenes.soil_pile, Setting(kind), Setting().fine(n=3), steps=steps)

@@ -47,10 +47,10 @@ module axijoint_analysis_static
    private
    public :: analyse_model, analyse_combination
 
-   !> Largest residual-force ratio of a linear job, whose residual is rounding: the default
-   !> tolerance of an increment. Of a ring with nu = 0.499999, whose large mean stresses cancel, it
-   !> is 2e-8
-   real(wp), parameter :: linear_tolerance = 1.0e-6_wp
+   !> Largest residual-force ratio of a linear job, whose residual is rounding, and told of where it shows
+   !> (`core/remarks.f90`): stresses are off by 0.5 to 1.3 times it, displacements by less (`scripts/verify limits`). Of a ring
+   !> with nu = 0.499999, whose large mean stresses cancel, it is 2e-8, of slender tubes to 1e-4
+   real(wp), parameter :: linear_tolerance = 1.0e-4_wp
 
 contains
 

@@ -735,6 +735,44 @@ def bent(program, folder):
     return faults
 
 
+RIM = """TITLE
+Rim
+CONTROL
+0
+MATERIALS
+1,1e5,0.3
+BLOCKS
+1,1,{nodes},{across},{along}
+{inner},0,{outer},1
+FACES
+1,1,{inner},0,{outer},0
+2,1,{inner},1,{outer},1
+FIXEDFACES
+2,010
+TRACTIONS
+1,0,{traction}
+END
+"""
+
+
+def rim(program, folder):
+    """Thin tubes loaded at their rim, in elements from half to twice sqrt(r t) long: the displacement there of a shell, p/(2 b^3 D)
+    with b^4 = 3 (1 - nu^2)/(r t)^2, is no farther off than told, but where few elements bend at all"""
+    faults = []
+    for thickness, alongs in ((0.01, (6, 8, 16)), (0.003, (10, 14, 20, 30)), (0.001, (16, 20, 32, 50)), (0.0003, (32, 64, 90))):
+        bending = 1e5*thickness**3/12/0.91
+        shell = 1/(2*(3*0.91/thickness**2)**0.75*bending)
+        for nodes, across in ((8, 1), (9, 1), (6, 1), (8, 3)):
+            for along in alongs:
+                deck = RIM.format(nodes=nodes, across=across, along=along, inner=1 - thickness/2, outer=1 + thickness/2, traction=1/thickness)
+                summary, tables = solved(program, folder, 'rim', deck)
+                found = max(row['u'] for row in tables['m = 0'])
+                true, told = abs(shell/found - 1), summary['errors']['discretization']['displacement']
+                if not true/told < 2.5:
+                    faults.append(f't = {thickness}, {nodes} nodes, {across} x {along}: true {true:.4f}, told {told:.4f}')
+    return faults
+
+
 def built_in(program, folder):
     """Bodies with infinite stress at corners: the error in the energy norm, whose square is what a finer mesh has more of energy under
     the same loads"""
@@ -952,7 +990,7 @@ def stiff_in_part(program, folder):
 def tests(program):
     """The tests of this module"""
     named = {'joint that reaches the axis': reaches_axis, 'gaps between harmonics': gaps, 'patch of rigid motion': rigid_patch,
-             'flies off': flies_off, 'idle motion': idle_motion, 'bent': bent, 'built in': built_in, 'points with names': named_points, 'rules in ground': rules_in_ground, 'loose': loose, 'units of length': units_of_length,
+             'flies off': flies_off, 'idle motion': idle_motion, 'bent': bent, 'rim': rim, 'built in': built_in, 'points with names': named_points, 'rules in ground': rules_in_ground, 'loose': loose, 'units of length': units_of_length,
              'least of yielding': least_of_yielding, 'locked': locked, 'torn bonds': torn_bonds, 'nearly incompressible': nearly_incompressible,
              'load beyond M': load_beyond, 'pressed bonds': pressed_bonds, 'slip of larger loads': slip_of_larger_loads,
              'smooth pile': smooth_pile, 'free of stress': stress_free, 'stiff beside soft': stiff_beside_soft,

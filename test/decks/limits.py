@@ -6,6 +6,7 @@ doc/user.md says of them; `scripts/verify limits` prints the table there, by the
 import json
 import math
 import os
+import re
 import sys
 import tempfile
 from dataclasses import dataclass
@@ -85,7 +86,7 @@ def side_by_side(ratio):
 class Case:
     """A job by its ratio, and words for it; largest decade that must be solved, smallest that must be refused, each a decade
     beside what was found; what accepted displacements and stresses may be off by, over the largest, or over the stress of
-    the soft body; component and stress that are looked at"""
+    the soft body, where no remark says how much more; component and stress that are looked at"""
     make: Callable
     words: str
     solved: int
@@ -97,21 +98,22 @@ class Case:
 
 
 CASES = {
-    'springs': Case(on_springs, 'body on springs, E/(k h)', 7, 10, 1e-6, 1e-5),
-    'springs, twisted': Case(twisted, 'body on springs, twisted, E/(k h)', 7, 10, 1e-6, 1e-5, 'w', 'tau_ztheta'),
-    'elastic joint': Case(on_joint, 'elastic joint between bodies, E/(k h)', 7, 10, 1e-6, 1e-5),
+    'springs': Case(on_springs, 'body on springs, E/(k h)', 9, 12, 1e-6, 1e-5),
+    'springs, twisted': Case(twisted, 'body on springs, twisted, E/(k h)', 9, 12, 1e-6, 1e-5, 'w', 'tau_ztheta'),
+    'elastic joint': Case(on_joint, 'elastic joint between bodies, E/(k h)', 9, 12, 1e-6, 1e-5),
     'joint': Case(lambda ratio: on_joint(ratio, 'PAPER'), 'joint that can open and slip, E/(k h)', 11, 14, 1e-6, 1e-5),
-    'upon': Case(one_upon_the_other, 'stiff body upon soft one, E/E', 6, 9, 1e-6, 1e-5),
+    'upon': Case(one_upon_the_other, 'stiff body upon soft one, E/E', 9, 12, 1e-6, 1e-5),
     'beside': Case(side_by_side, 'stiff ring round soft body, E/E', 18, 99, 1e-6, 1e-5),
 }
 
 
 def found(program, folder, case, decade):
-    """Exit code; errors of displacement and stress over exact values; residual ratio, condition number"""
+    """Exit code; errors of displacement and stress over exact values; residual ratio, condition number, and what a remark says
+    that stresses may be off by, 0 without one"""
     deck, exact = case.make(10.0**decade)
     ran = program.run('run', write(folder, 'job.dat', deck), '-o', folder)
     if not os.path.exists(os.path.join(folder, 'job.lis')):
-        return ran.code, math.nan, math.nan, math.nan, math.nan
+        return ran.code, math.nan, math.nan, math.nan, math.nan, 0.0
     tables = listing.tables(read_text(os.path.join(folder, 'job.lis')))
     summary = json.loads(read_text(os.path.join(folder, 'job.json')))
     rows = next(tables[name] for name in (('m = 0 A',) if case.component == 'w' else ('m = 0',)))
@@ -127,22 +129,24 @@ def found(program, folder, case, decade):
         least = 10.0**-decade if case.make is side_by_side and row['r'] < 1 else 1.0
         wrong = max(wrong, abs(abs(row[case.of]) - wanted*least)/(PRESSURE*least))
     os.remove(os.path.join(folder, 'job.lis'))
-    return ran.code, off/size, wrong, summary['residual_ratio'], max(mode['condition'] for mode in summary['modes'])
+    told = re.search(r'rounding may leave stresses off by (\S+) of the largest, displacements by less', ' '.join(ran.out.split()))
+    return (ran.code, off/size, wrong, summary['residual_ratio'], max(mode['condition'] for mode in summary['modes']),
+            float(told[1]) if told else 0.0)
 
 
 def held(program, folder, case):
     """Faults unless it is solved and refused where the manual says so, and what is accepted is as near as it says"""
     faults = []
     for decade in DECADES:
-        code, displacement, stress, *_ = found(program, folder, case, decade)
+        code, displacement, stress, _, _, told = found(program, folder, case, decade)
         if code not in (0, 3, 4):
             faults.append(f'1E{decade}: exit code {code}')
         if decade <= case.solved and code != 0:
             faults.append(f'1E{decade}: expected to be solved, exit code {code}')
         if decade >= case.refused and code == 0:
             faults.append(f'1E{decade}: expected to be refused, displacements off by {displacement:.1E}, stresses by {stress:.1E}')
-        if code == 0 and not (displacement <= case.displacement and stress <= case.stress):
-            faults.append(f'1E{decade}: accepted, but displacements are off by {displacement:.1E}, stresses by {stress:.1E}')
+        if code == 0 and not (displacement <= max(case.displacement, told) and stress <= max(case.stress, told)):
+            faults.append(f'1E{decade}: accepted, but displacements are off by {displacement:.1E}, stresses by {stress:.1E}, told {told:.1E}')
     return faults
 
 
@@ -183,9 +187,9 @@ def main(path, *options):
             for decade in DECADES:
                 runs[decade] = found(program, folder, case, decade)
                 if '--rows' in options:
-                    code, displacement, stress, residual, condition = runs[decade]
+                    code, displacement, stress, residual, condition, told = runs[decade]
                     print(f'  {case.words:44} 1E{decade:<3} exit {code}  displacement {displacement:.1E}  stress {stress:.1E}  '
-                          f'residual {residual:.1E}  condition {condition:.1E}', flush=True)
+                          f'residual {residual:.1E}  condition {condition:.1E}  told {told:.1E}', flush=True)
         good = [decade for decade, run in runs.items() if run[0] == 0]
         bad = [decade for decade, run in runs.items() if run[0] != 0]
         print(f'| {case.words} | {f"1E{max(good)}" if good else "-"} | {f"1E{min(bad)}" if bad else "-"} | '

@@ -26,6 +26,8 @@ module axijoint_analysis_core_remarks
    real(wp), parameter :: stiffest = 1.0e4_wp
    !> Tolerances above this deserve a word
    real(wp), parameter :: coarse_tolerance = 1.0e-3_wp
+   !> So do residual-force ratios of linear jobs above this; and how many times such a ratio stresses may be off
+   real(wp), parameter :: shows = 1.0e-6_wp, lost = 2.0_wp
    !> So many harmonics or increments are named
    integer, parameter :: most_named = 8
 
@@ -59,7 +61,11 @@ contains
       else if (.not. results%converged) then
          call add(remarks, 'the equations are ill-conditioned (condition number '// &
                   to_text(maxval(results%solves%condition))//', residual '// &
-                  to_text(results%residual_ratio)//'): stiffnesses out of all proportion?')
+                  to_text(results%residual_ratio)//'): stiffnesses, or a length beside a thickness, out of all proportion?')
+      else if (results%residual_ratio > shows) then
+         call add(remarks, 'bodies move far beside what strains them (condition number '// &
+                  to_text(maxval(results%solves%condition))//'): rounding may leave stresses off by '// &
+                  to_text(lost*results%residual_ratio)//' of the largest, displacements by less')
       end if
       if (.not. (results%converged .or. allocated(results%mechanism))) remarks(size(remarks))%says_why = .true.
       if (.not. results%converged .and. size(results%path) == 0 .and. any(is_reduced(model%mesh%kinds))) &

@@ -15,10 +15,12 @@ module axijoint_analysis_fine_blocks
    !> long sides
    real(wp), parameter :: slender = 2.0_wp*(1.0_wp + 1.0e-9_wp)  ! rounding, of units, does not decide
    !> A wall of elements longer than this times sqrt(r t), the length over which a tube of radius r bends where it is
-   !> loaded or held, is strongly coupled along itself: what bends it within an element moves its neighbours
-   real(wp), parameter :: bending = 2.0_wp
-   !> Elements from one surface of such a wall to the other at most: more make its block wide
-   integer, parameter :: most_across = 2
+   !> loaded or held, or than this times its thickness t, is strongly coupled along itself: what bends it within an element
+   !> moves its neighbours. With lines across it alone estimates were up to 4 times too small from 1.2 sqrt(r t) on at
+   !> t = r/300, 10 times from 0.6 on at r/3000: from 20 t on, with triangles from 15 t on
+   real(wp), parameter :: bending = 2.0_wp, long_beside_wall = 10.0_wp
+   !> Elements from one surface of such a wall to the other at most, of which two triangles are one: more make its block wide
+   integer, parameter :: most_across = 4
 
 contains
 
@@ -81,8 +83,8 @@ contains
    end function new_blocks
 
    !> Which elements are parts of a thin wall that is solved as a whole: from one surface of a body to the other, along long
-   !> sides, there are slender elements only, few of them, and these are long beside its thickness; in bodies with such elements
-   !> that are long beside sqrt(r t), too
+   !> sides, there are slender elements only, few of them, and these are longer than its thickness; in bodies with such elements
+   !> that couple it along itself
    function in_thin_walls(coarse, fine) result(thin)
       !> The coarse mesh
       type(mesh_type), intent(in) :: coarse
@@ -91,7 +93,7 @@ contains
       !> Shape (elements)
       logical :: thin(n_elements(coarse))
 
-      integer, dimension(n_elements(coarse)) :: root, surfaces, across
+      integer, dimension(n_elements(coarse)) :: root, surfaces, halves
       real(wp), dimension(n_elements(coarse)) :: thickness, length, radius
       logical :: long(4, n_elements(coarse)), bends(n_elements(coarse))
       integer :: k, side, i
@@ -110,33 +112,41 @@ contains
       end do
       call find_roots(root)
       surfaces = 0
-      across = 0
+      halves = 0
       thickness = 0.0_wp
       radius = 0.0_wp
       length = huge(1.0_wp)
       do k = 1, size(root)
          i = root(k)
-         if (n_corners(coarse%element_size(k)) == 3 .or. .not. any(long(:, k))) then
+         if (.not. any(long(:, k))) then
             length(i) = 0.0_wp
             cycle
          end if
-         associate (sides => side_lengths(coarse, k))
-            thickness(i) = thickness(i) + minval(sides)
-            length(i) = min(length(i), maxval(sides))
+         associate (n => n_corners(coarse%element_size(k)), sides => side_lengths(coarse, k))
+            thickness(i) = thickness(i) + minval(sides(:n))*merge(0.5_wp, 1.0_wp, n == 3)
+            length(i) = min(length(i), maxval(sides(:n)))
+            radius(i) = max(radius(i), maxval(coarse%coordinates(1, coarse%element_nodes(:n, k))))
+            surfaces(i) = surfaces(i) + count(long(:n, k) .and. fine%edges(fine%element_edges(:n, k))%elements(2) == 0)
+            halves(i) = halves(i) + n - 2
          end associate
-         radius(i) = max(radius(i), maxval(coarse%coordinates(1, coarse%element_nodes(:4, k))))
-         surfaces(i) = surfaces(i) + count(long(:, k) .and. fine%edges(fine%element_edges(:, k))%elements(2) == 0)
-         across(i) = across(i) + 1
       end do
       do k = 1, size(root)
          i = root(k)
-         thin(k) = surfaces(i) == 2 .and. across(i) <= most_across .and. length(i) > slender*thickness(i)
-         bends(k) = thin(k) .and. length(i) > bending*sqrt(radius(i)*thickness(i))
+         thin(k) = surfaces(i) == 2 .and. halves(i) <= 2*most_across .and. length(i) > slender*thickness(i)
+         bends(k) = thin(k) .and. length(i) > longest_free(radius(i), thickness(i))
       end do
       do i = 1, maxval(coarse%element_body)
          if (.not. any(bends .and. coarse%element_body == i)) where (coarse%element_body == i) thin = .false.
       end do
    end function in_thin_walls
+
+   !> Length of the elements of a wall from which on they couple it along itself
+   pure real(wp) function longest_free(radius, thickness)
+      !> Of the wall
+      real(wp), intent(in) :: radius, thickness
+
+      longest_free = min(long_beside_wall*thickness, bending*sqrt(radius*thickness))
+   end function longest_free
 
    !> Which edges lie across a joint from a thin wall: these are solved with it, the elements behind them, and lines that
    !> end there, are not
@@ -263,10 +273,10 @@ contains
       !> The element
       integer, intent(in) :: element
 
-      may_be_wall = n_corners(mesh%element_size(element)) == 4
-      if (.not. may_be_wall) return
-      associate (sides => side_lengths(mesh, element), r => mesh%coordinates(1, mesh%element_nodes(:4, element)))
-         may_be_wall = maxval(sides) > max(slender*minval(sides), bending*sqrt(maxval(r)*minval(sides)))
+      associate (n => n_corners(mesh%element_size(element)), sides => side_lengths(mesh, element))
+         associate (r => mesh%coordinates(1, mesh%element_nodes(:n, element)), narrow => minval(sides(:n)))
+            may_be_wall = maxval(sides) > max(slender*narrow, longest_free(maxval(r), narrow))
+         end associate
       end associate
    end function may_be_wall
 
