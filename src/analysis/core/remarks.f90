@@ -586,7 +586,7 @@ contains
       type(model_type), intent(in) :: model
       !> Load factor of the whole, and factors of the cases
       real(wp), intent(in) :: reached, case_factor(:)
-      !> Such as ', case 1 at 1, case 2 at 0.978'
+      !> Such as ', case 1 at 1, case 2 at 0.978', or that none is on, where increments are of cases that a combination lacks
       character(len=:), allocatable :: text
 
       !> Rounding of sums of factors
@@ -594,6 +594,7 @@ contains
       integer :: k
 
       text = ''
+      if (reached > 0.0_wp .and. .not. any(abs(case_factor) > 0.0_wp)) text = ', where none of its load cases is on yet'
       if (count(abs(case_factor) > 0.0_wp) < 2 .and. all(abs(case_factor - reached) <= rounding*abs(reached) &
          .or. abs(case_factor) <= 0.0_wp)) return
       do k = 1, size(case_factor)
