@@ -2,7 +2,7 @@
 module axijoint_analysis_core_footprint
    use omp_lib, only : omp_get_max_threads
    use axijoint_analysis_fine_block_groups, only : least_same
-   use axijoint_analysis_fine_blocks, only : is_slender, may_be_wall
+   use axijoint_analysis_fine_blocks, only : is_slender, may_be_wall, elements_across
    use axijoint_assembly_block_parts, only : block_size
    use axijoint_assembly_repeated_elements, only : shapes_type, find_shapes, number_alike
    use axijoint_base_kinds, only : wp, i8
@@ -23,6 +23,7 @@ module axijoint_analysis_core_footprint
    use axijoint_model_mesh, only : mesh_type, n_nodes, n_elements, element_references
    use axijoint_model_model, only : model_type, n_shown, bodies_yield, can_yield, can_yield_at
    use axijoint_model_modes, only : used_modes
+   use axijoint_model_neighbours, only : neighbours_type, new_neighbours
    use axijoint_plastic_field, only : body_planes
    implicit none
    private
@@ -384,23 +385,34 @@ contains
       integer, intent(in) :: alike(:)
 
       !> Numbers of the factors for a fine node, of elements of 3 to 9 nodes: where each side and each
-      !> inside is a block, and where slender elements make lines; as counted in squares of them; and where they may be
-      !> thin walls, as measured on long tubes of one element across
+      !> inside is a block, and where slender elements make lines; as counted in squares of them
       real(wp), parameter :: compact(3:9) = [9.0_wp, 9.0_wp, 0.0_wp, 20.0_wp, 0.0_wp, 25.0_wp, &
-         38.0_wp], slender(3:9) = [13.0_wp, 13.0_wp, 0.0_wp, 65.0_wp, 0.0_wp, 47.0_wp, 65.0_wp], &
-         wall(3:9) = [0.0_wp, 68.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 138.0_wp, 160.0_wp]
+         38.0_wp], slender(3:9) = [13.0_wp, 13.0_wp, 0.0_wp, 65.0_wp, 0.0_wp, 47.0_wp, 65.0_wp]
+      !> Where they are thin walls: fine nodes that a row of fine elements adds, for each element across and besides, and how
+      !> many times so many nodes a column of the factor reaches, as measured on long tubes
+      real(wp), parameter :: row_nodes(3:9) = [2.0_wp, 2.0_wp, 0.0_wp, 8.0_wp, 0.0_wp, 6.0_wp, 8.0_wp], &
+         more_nodes(3:9) = [1.0_wp, 1.0_wp, 0.0_wp, 2.0_wp, 0.0_wp, 2.0_wp, 2.0_wp], reached_rows = 1.4_wp
       !> Vectors of three components: two a step, of which two to four are made, others, and memory
       !> between them that nobody uses; as measured
       real(wp), parameter :: vectors = 14.4_wp
-      real(wp) :: numbers, of_blocks
+      type(neighbours_type) :: neighbours
+      real(wp) :: numbers, of_blocks, across
+      logical, allocatable :: has_walls(:)
       integer :: element
 
+      allocate (has_walls(maxval(mesh%element_body)), source=.false.)
+      do element = 1, n_elements(mesh)
+         if (may_be_wall(mesh, element)) has_walls(mesh%element_body(element)) = .true.
+      end do
+      if (any(has_walls)) neighbours = new_neighbours(mesh)
       numbers = 0.0_wp
       do element = 1, n_elements(mesh)
          associate (n => mesh%element_size(element))
             of_blocks = merge(slender(n), compact(n), is_slender(mesh, element))
             if (alike(element) >= least_same) of_blocks = of_blocks/alike(element)
-            if (may_be_wall(mesh, element)) of_blocks = wall(n)
+            across = 0.0_wp
+            if (has_walls(mesh%element_body(element))) across = elements_across(mesh, neighbours, element)
+            if (across > 0.0_wp) of_blocks = 9*(1.0_wp + reached_rows*(more_nodes(n) + across*row_nodes(n)))
             numbers = numbers + fine_nodes(n)*(3.0_wp*vectors + of_blocks)
          end associate
       end do

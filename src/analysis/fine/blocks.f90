@@ -5,11 +5,12 @@ module axijoint_analysis_fine_blocks
    use axijoint_fe_shape, only : n_corners
    use axijoint_fe_subdivision, only : n_children
    use axijoint_model_mesh, only : mesh_type, n_nodes, n_elements, n_joints
+   use axijoint_model_neighbours, only : neighbours_type, element_at_edge
    use axijoint_order_graph, only : graph_type, new_graph
    use axijoint_order_rcm, only : reverse_cuthill_mckee
    implicit none
    private
-   public :: new_blocks, graph_of_blocks, order_by_blocks, is_slender, may_be_wall
+   public :: new_blocks, graph_of_blocks, order_by_blocks, is_slender, may_be_wall, elements_across
 
    !> An element longer than this times its width is strongly coupled to its neighbours across its
    !> long sides
@@ -279,6 +280,77 @@ contains
          end associate
       end associate
    end function may_be_wall
+
+   !> Elements from one surface to the other of a wall that a slender element is part of, of which two triangles are one; zero if
+   !> it is of none that is solved as a whole
+   pure real(wp) function elements_across(mesh, neighbours, element) result(across)
+      !> The mesh, and its elements by nodes
+      type(mesh_type), intent(in) :: mesh
+      type(neighbours_type), intent(in) :: neighbours
+      !> The element
+      integer, intent(in) :: element
+
+      logical :: long(4)
+      integer :: side, way, here, next, nodes(2), halves
+
+      across = 0.0_wp
+      halves = n_corners(mesh%element_size(element)) - 2
+      long = long_sides(mesh, element)
+      if (count(long) /= 2) return
+      do side = 1, 4
+         if (.not. long(side)) cycle
+         here = element
+         way = side
+         do
+            nodes = ends_of(here, way)
+            next = element_at_edge(mesh, neighbours, nodes(1), nodes(2), here)
+            if (next == 0) exit
+            halves = halves + n_corners(mesh%element_size(next)) - 2
+            if (halves > 2*most_across .or. count(long_sides(mesh, next)) /= 2) return
+            way = other_side(next, nodes)
+            if (way == 0) return
+            here = next
+         end do
+      end do
+      across = 0.5_wp*halves
+
+   contains
+
+      !> Corner nodes of a side
+      pure function ends_of(element, side) result(nodes)
+         !> The element, and its side
+         integer, intent(in) :: element, side
+         !> The nodes
+         integer :: nodes(2)
+
+         nodes = mesh%element_nodes([side, mod(side, n_corners(mesh%element_size(element))) + 1], element)
+      end function ends_of
+
+      !> The long side beside that with two nodes; zero if that is none
+      pure integer function other_side(element, nodes) result(other)
+         !> The element, and the nodes
+         integer, intent(in) :: element, nodes(2)
+
+         logical :: sides(4)
+         integer :: side, entered
+
+         other = 0
+         entered = 0
+         sides = long_sides(mesh, element)
+         do side = 1, 4
+            if (.not. sides(side)) cycle
+            associate (ends => ends_of(element, side))
+               if (minval(ends) == minval(nodes) .and. maxval(ends) == maxval(nodes)) then
+                  entered = side
+               else
+                  other = side
+               end if
+            end associate
+         end do
+         if (entered == 0) other = 0
+      end function other_side
+
+   end function elements_across
 
    !> Graph of nodes that share an element, or a joint, and a block
    function graph_of_blocks(mesh, block) result(graph)
