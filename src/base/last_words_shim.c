@@ -123,8 +123,7 @@ static void remove_files(const char *lock, size_t length)
          if (all < ahead + 1 + behind || strncmp(entry->name, name, ahead) != 0 ||
              entry->name[ahead] != '.' || strcmp(entry->name + all - behind, own_ending) != 0)
             continue;
-         snprintf(path, sizeof path, "%s%s", folder, entry->name);
-         unlink(path);
+         if ((size_t)snprintf(path, sizeof path, "%s%s", folder, entry->name) < sizeof path) unlink(path);
       }
    close(file);
 }

@@ -26,10 +26,11 @@ static int32_t asked_for(void)
 static int32_t at_hand(void)
 {
 #if defined(__x86_64__)
-   if (__builtin_cpu_supports("avx512f")) return 8;
-   if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) return 4;
-#endif
+   if (!__builtin_cpu_supports("avx2") || !__builtin_cpu_supports("fma")) return 2;
+   return __builtin_cpu_supports("avx512f") ? 8 : 4;
+#else
    return 2;
+#endif
 }
 
 /* 2, 4 or 8. A process keeps to what it finds first */

@@ -4,9 +4,9 @@
  * A panel is the three columns of a node, each with the rows of the node itself and of as many nodes behind it as its columns
  * reach; below[] counts those, and no panel ends before the one in front of it. Panels lie one behind the other. What is
  * stored is L D, and 1/D on the diagonal. Every number is made in the same order whatever is taken at once, so that one
- * matrix and eight have the same bits. */
+ * matrix and eight have the same bits; a compiler that makes vectors of loops by itself would add up products in one of them
+ * that it adds up one by one in another. */
 #include <stdint.h>
-#include <stddef.h>
 
 /* doubles_at_once.c */
 int32_t axijoint_doubles_at_once(void);
@@ -195,14 +195,20 @@ SOLVE(solve_one, double, double, give_one)
 SOLVE(solve_some, eight, eight, give_some)
 SOLVE(solve_with_one, double, eight, give_with_one)
 
+#if defined(__GNUC__) && !defined(__clang__)
+#define AS_WRITTEN __attribute__((optimize("no-tree-loop-vectorize", "no-tree-slp-vectorize")))
+#else
+#define AS_WRITTEN
+#endif
+
 /* All of them, for processors that have what `processor` says */
 #define ALL(name, processor)                                                                           \
-   processor static int factor_##name(int32_t at_once, int32_t n, const int32_t *below, double *a)     \
+   AS_WRITTEN processor static int factor_##name(int32_t at_once, int32_t n, const int32_t *below, double *a)     \
    {                                                                                                   \
       return at_once == 1 ? factor_one(n, below, a) : factor_some(n, below, (eight *)a);               \
    }                                                                                                   \
                                                                                                        \
-   processor static void solve_##name(int32_t at_once, int32_t sides, int32_t n, const int32_t *below, const double *a, double *b) \
+   AS_WRITTEN processor static void solve_##name(int32_t at_once, int32_t sides, int32_t n, const int32_t *below, const double *a, double *b) \
    {                                                                                                   \
       if (sides == 1) solve_one(n, below, a, b);                                                       \
       else if (at_once == 1) solve_with_one(n, below, a, (eight *)b);                                  \

@@ -3,7 +3,7 @@ module axijoint_analysis_fine_block_groups
    use axijoint_analysis_fine_conditions, only : conditions_type
    use axijoint_assembly_product_stiffness, only : product_stiffness_type
    use axijoint_base_kinds, only : wp, i8
-   use axijoint_base_sort, only : refine_order
+   use axijoint_base_sort, only : ascending_order, refine_order
    use axijoint_linalg_node_envelope, only : n_lanes, panel_size
    use axijoint_order_graph, only : graph_type
    implicit none
@@ -12,9 +12,9 @@ module axijoint_analysis_fine_block_groups
 
    !> Blocks of a kind from which on they have a factor together
    integer, parameter :: least_same = 4
-   !> Numbers of factors in a group of blocks of alike shape, over those of the blocks, at most: eight at once are made in less than
-   !> half the time of eight one by one
-   real(wp), parameter :: most_padding = 2.0_wp
+   !> Numbers of factors in a group of blocks of alike shape, over those of the blocks, at most: eight at once take from half the time
+   !> of eight one by one (small blocks) to as much
+   real(wp), parameter :: most_padding = 1.2_wp
    !> Places of the table in which kinds are looked up, for every block, and what brings them to different places
    integer, parameter :: places_of_block = 4
    integer(i8), parameter :: scatter = 1000003, modulus = 2147483647
@@ -335,14 +335,15 @@ contains
       logical, intent(inout) :: grouped(:)
 
       integer, allocatable :: by_shape(:), groups(:, :), order(:)
-      integer :: own(size(grouped)), b, k, n
+      integer(i8) :: own(size(grouped))
+      integer :: b, k, n
 
       by_shape = pack([(b, b=1, size(grouped))], .not. grouped)
       own = 0
       do k = 1, size(by_shape)
          own(by_shape(k)) = size_of(by_shape(k:k))
       end do
-      call refine_order(by_shape, own)
+      by_shape = by_shape(ascending_order(real(own(by_shape), wp)))
       call refine_order(by_shape, blocks%first(2:) - blocks%first(:size(grouped)))
       allocate (groups(n_lanes, size(by_shape)/n_lanes))
       n = 0
@@ -360,19 +361,19 @@ contains
          end associate
       end do
       order = [(k, k=1, n)]
-      call refine_order(order, groups(1, :n))
+      call refine_order(order, minval(groups(:, :n), 1))
       blocks%groups = groups(:, order)
       blocks%left = pack([(b, b=1, size(grouped))], .not. grouped)
 
    contains
 
       !> Pairs of nodes in the envelope of some blocks
-      pure integer function size_of(some)
+      pure integer(i8) function size_of(some)
          !> The blocks
          integer, intent(in) :: some(:)
 
          associate (below => envelope_of(blocks, some))
-            size_of = size(below) + sum(below)
+            size_of = size(below, kind=i8) + sum(int(below, i8))
          end associate
       end function size_of
 

@@ -6,7 +6,7 @@ module axijoint_analysis_fine_smoother
    use axijoint_assembly_block_parts, only : harmonic_factors
    use axijoint_assembly_envelope_fill, only : fill_envelope, all_free, tied_state
    use axijoint_assembly_product_stiffness, only : product_stiffness_type
-   use axijoint_base_kinds, only : wp, i8
+   use axijoint_base_kinds, only : wp
    use axijoint_base_large_pages, only : use_large_pages
    use axijoint_base_ranges, only : range_end
    use axijoint_linalg_node_envelope, only : n_lanes, factor_envelope, factor_envelopes, solve_envelope, &
