@@ -6,7 +6,7 @@ module axijoint_model_locking
    use axijoint_model_model, only : model_type
    implicit none
    private
-   public :: elements_lock, is_nearly_incompressible, effective_ratio
+   public :: elements_lock, is_nearly_incompressible, has_nearly_incompressible, effective_ratio
 
    !> Poisson's ratio above which linear elements lock visibly
    real(wp), parameter :: largest_ratio = 0.49_wp + 1.0e-9_wp
@@ -49,6 +49,19 @@ contains
 
       is_nearly_incompressible = effective_ratio(material) > largest_ratio
    end function is_nearly_incompressible
+
+   !> Whether an element is of a material that can hardly change its volume
+   pure logical function has_nearly_incompressible(model) result(has)
+      !> The job
+      type(model_type), intent(in) :: model
+
+      integer :: k
+
+      has = .false.
+      do k = 1, size(model%materials)
+         if (is_nearly_incompressible(model%materials(k))) has = has .or. any(model%mesh%element_material == k)
+      end do
+   end function has_nearly_incompressible
 
    !> Poisson's ratio of an isotropic solid of the same resistance to a change of
    !> volume and, on the average, to shear
