@@ -94,7 +94,7 @@ def mesh_rows():
             setting = replace(linear, kind=kind, harmonic=m)
             yield row(f"rim, wall {thickness}, {across} x {along}, m = {m}", scenes.rim, setting, setting.fine(n=5, grade=10.0), m=m,
                       thickness=thickness, across=across, along=along)
-    for kind in ("4", "8"):
+    for kind in ("4", "6", "8"):
         for name, steps in HISTORIES.items():
             yield row(f"pile in the ground, {name}", scenes.soil_pile, Setting(kind), Setting().fine(n=3), steps=steps)
             yield row(f"pipe pile, {name}", scenes.pipe_pile, Setting(kind), Setting().fine(n=3), steps=steps)

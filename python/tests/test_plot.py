@@ -28,6 +28,24 @@ ALWAYS = {"mesh", "deformed", "convergence", "spectrum"} | CONTOURS
 WANTED = {"case3": ALWAYS | LINES | {"joints_1", "joints_2", "pressure_1", "pressure_2"},
           "first": ALWAYS | LINES | {"joints", "pressure"},
           "chimney.2": ALWAYS | {"section_1", "joints", "pressure"}}
+TOWER = """TITLE
+A tower
+CONTROL
+1
+MATERIALS
+1, 2.1E8, 0.3
+BLOCKS
+1, 1, 8, 1, 45
+1.985, 0.0, 2.015, 90.0
+FACES
+1, 1, 1.985, 0.0, 2.015, 0.0
+2, 1, 1.985, 90.0, 2.015, 90.0
+FIXEDFACES
+1, 111
+RESULTANTS
+2, LATERAL, 1.0
+END
+"""
 # Of a pile, and the tables with them
 OF_PILE = {"points", "energy", "pile", "py", "tz", "pisa"}
 INTERFACES = {f"{kind}_{name}" for kind in ("joints", "pressure") for name in ("shaft", "plug", "toe")}
@@ -59,6 +77,13 @@ class Figures(unittest.TestCase):
 
     def test_chimney(self):
         self.check("chimney.2")
+
+    def test_a_tower(self):
+        """Far taller than wide: names of planes, and ticks, keep apart"""
+        with tempfile.TemporaryDirectory() as folder:
+            jobs.run(folder, "tower", TOWER)
+            for name, figure in plot.figures(axijoint.open(pathlib.Path(folder)/"tower.h5"), ["mesh", "deformed"]):
+                self.assertEqual(overlaps(figure), [], name)
 
     def test_bodies_that_yield(self):
         """Plastic zones where the pile presses; planes are found at all angles, mirrored beyond 180 degrees"""

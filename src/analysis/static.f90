@@ -157,6 +157,7 @@ contains
       if (.not. estimates) results%discretization%largest_displacement = &
          largest_vector(results%modes, results%displacement)
       results%locks = elements_lock(model)
+      if (estimates) results%bends_unseen = structure%fine%bends_unseen
       results%converged = results%converged .and. max(results%residual_ratio, results%mismatch) &
          <= results%tolerance
       if (results%converged) then

@@ -82,6 +82,46 @@ def side_by_side(ratio):
     return deck.text(), lambda r, z: -PRESSURE*z/YOUNG
 
 
+# Two by two distorted 9-node elements, of whose sides the corners, and one middle, are given
+DISTORTED = """TITLE
+A cylinder that can hardly change its volume
+CONTROL
+0
+MATERIALS
+1, {young}, {poisson:.17g}
+NODES
+1, 0.0, 0.0
+3, 0.6, 0.0
+5, 1.0, 0.0
+21, 0.0, 0.6
+23, 0.4, 0.5
+25, 1.0, 0.6
+41, 0.0, 1.0
+43, 0.6, 1.0
+45, 1.0, 1.0
+24, 0.7, 0.6
+ELEMENTS
+1, 1, 1, 1, 2, 3, 13, 23, 22, 21, 11, 12
+2, 1, 1, 3, 4, 5, 15, 25, 24, 23, 13, 14
+3, 1, 1, 43, 42, 41, 31, 21, 22, 23, 33, 32
+4, 1, 1, 23, 24, 25, 35, 45, 44, 43, 33, 34
+FACES
+1, 1, 0, 0, 1, 0
+2, 1, 0, 1, 1, 1
+FIXEDFACES
+1, 010
+PRESSURES
+2, 0, {pressure}, {pressure}
+END
+"""
+
+
+def squeezed(ratio):
+    """A cylinder of distorted elements; the ratio is that of bulk to shear modulus, 2 (1 + nu)/(3 (1 - 2 nu))"""
+    poisson = (3*ratio - 2)/(6*ratio + 2)
+    return DISTORTED.format(young=YOUNG, poisson=poisson, pressure=PRESSURE), lambda r, z: -PRESSURE*z/YOUNG
+
+
 @dataclass(frozen=True)
 class Case:
     """A job by its ratio, and words for it; largest decade that must be solved, smallest that must be refused, each a decade
@@ -103,6 +143,7 @@ CASES = {
     'elastic joint': Case(on_joint, 'elastic joint between bodies, E/(k h)', 9, 12, 1e-6, 1e-5),
     'joint': Case(lambda ratio: on_joint(ratio, 'PAPER'), 'joint that can open and slip, E/(k h)', 11, 14, 1e-6, 1e-5),
     'upon': Case(one_upon_the_other, 'stiff body upon soft one, E/E', 9, 12, 1e-6, 1e-5),
+    'squeezed': Case(squeezed, 'nearly incompressible, distorted elements, K/G', 8, 11, 1e-6, 1e-3),
     'beside': Case(side_by_side, 'stiff ring round soft body, E/E', 18, 99, 1e-6, 1e-5),
 }
 
@@ -139,7 +180,7 @@ def held(program, folder, case):
     faults = []
     for decade in DECADES:
         code, displacement, stress, _, _, told = found(program, folder, case, decade)
-        if code not in (0, 3, 4):
+        if code not in (0, 3, 4) and not (case.make is squeezed and decade > 15):  # in sixteen digits that is nu = 1/2
             faults.append(f'1E{decade}: exit code {code}')
         if decade <= case.solved and code != 0:
             faults.append(f'1E{decade}: expected to be solved, exit code {code}')

@@ -6,6 +6,8 @@ from .style import plt
 
 # Walls thinner than this share of their height are drawn with r stretched
 THIN = 1/12
+# Bodies narrower than this share of their height have the planes' names beside the axis
+NARROW = 1/4
 
 
 class Planes:
@@ -14,6 +16,7 @@ class Planes:
     angles     theta of both planes [degree]
     chosen     the elements drawn (index); everything a mask of them
     thin       a wall far from the axis: each plane has axes of its own, with r stretched
+    narrow     a body so slender that names of planes would lie on one another above its halves
     figure
     """
 
@@ -26,6 +29,7 @@ class Planes:
         self.nodes = np.unique(mesh.element_nodes[self.chosen])
         self.nodes = self.nodes[self.nodes >= 0]
         r, z = mesh.coordinates[self.nodes].T
+        self.narrow = 2*r.max() < NARROW*np.ptp(z)
         self.thin = bool(stretch and np.ptp(r) < THIN*np.ptp(z) and r.min() > np.ptp(r))
         if self.thin:
             self.figure, (left, right) = plt.subplots(1, 2, figsize=(style.ONE_COLUMN + extra, 5.5), sharey=True)
@@ -68,8 +72,12 @@ class Planes:
             low, high = first.get_ylim()
             first.axvline(0, color="black", lw=0.6, ls=(0, (8, 2, 1, 2)))
             first.set_ylim(low, high)
-            for plane, at in zip(self.angles, (0.75, 0.25)):
-                first.text(at, 1.01, style.degrees(plane), transform=first.transAxes, ha="center", va="bottom")
+            for plane, at, side in zip(self.angles, (0.75, 0.25), (1, -1)):
+                if self.narrow:
+                    first.annotate(style.degrees(plane), (0, 1.01), (4*side, 0), xycoords=first.get_xaxis_transform(),
+                                   textcoords="offset points", ha="left" if side > 0 else "right", va="bottom")
+                else:
+                    first.text(at, 1.01, style.degrees(plane), transform=first.transAxes, ha="center", va="bottom")
         if self.thin and title:
             self.figure.suptitle(title)
         elif title:

@@ -2,7 +2,7 @@
 module axijoint_analysis_core_footprint
    use omp_lib, only : omp_get_max_threads
    use axijoint_analysis_fine_block_groups, only : least_same
-   use axijoint_analysis_fine_blocks, only : is_slender, may_be_wall, elements_across
+   use axijoint_analysis_fine_walls, only : walls_type, find_walls, is_slender
    use axijoint_assembly_block_parts, only : block_size
    use axijoint_assembly_repeated_elements, only : shapes_type, find_shapes, number_alike
    use axijoint_base_kinds, only : wp, i8
@@ -23,7 +23,6 @@ module axijoint_analysis_core_footprint
    use axijoint_model_mesh, only : mesh_type, n_nodes, n_elements, element_references
    use axijoint_model_model, only : model_type, n_shown, bodies_yield, can_yield, can_yield_at
    use axijoint_model_modes, only : used_modes
-   use axijoint_model_neighbours, only : neighbours_type, new_neighbours
    use axijoint_plastic_field, only : body_planes
    implicit none
    private
@@ -378,7 +377,7 @@ contains
    end function has_congruent_children
 
    !> What a thread works with on the fine level: factors of blocks of nodes, and vectors of all nodes
-   pure integer(i8) function fine_work_bytes(mesh, alike) result(bytes)
+   integer(i8) function fine_work_bytes(mesh, alike) result(bytes)
       !> The coarse mesh
       type(mesh_type), intent(in) :: mesh
       !> Number of elements that are like each: their blocks have a factor together if they are some
@@ -395,24 +394,19 @@ contains
       !> Vectors of three components: two a step, of which two to four are made, others, and memory
       !> between them that nobody uses; as measured
       real(wp), parameter :: vectors = 14.4_wp
-      type(neighbours_type) :: neighbours
-      real(wp) :: numbers, of_blocks, across
-      logical, allocatable :: has_walls(:)
+      type(walls_type) :: walls
+      real(wp) :: numbers, of_blocks
       integer :: element
 
-      allocate (has_walls(maxval(mesh%element_body)), source=.false.)
-      do element = 1, n_elements(mesh)
-         if (may_be_wall(mesh, element)) has_walls(mesh%element_body(element)) = .true.
-      end do
-      if (any(has_walls)) neighbours = new_neighbours(mesh)
+      walls = find_walls(mesh)
       numbers = 0.0_wp
       do element = 1, n_elements(mesh)
          associate (n => mesh%element_size(element))
             of_blocks = merge(slender(n), compact(n), is_slender(mesh, element))
             if (alike(element) >= least_same) of_blocks = of_blocks/alike(element)
-            across = 0.0_wp
-            if (has_walls(mesh%element_body(element))) across = elements_across(mesh, neighbours, element)
-            if (across > 0.0_wp) of_blocks = 9*(1.0_wp + reached_rows*(more_nodes(n) + across*row_nodes(n)))
+            associate (across => walls%across(element))
+               if (across > 0.0_wp) of_blocks = 9*(1.0_wp + reached_rows*(more_nodes(n) + across*row_nodes(n)))
+            end associate
             numbers = numbers + fine_nodes(n)*(3.0_wp*vectors + of_blocks)
          end associate
       end do

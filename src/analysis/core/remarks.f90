@@ -7,6 +7,7 @@ module axijoint_analysis_core_remarks
       source_harmonics
    use axijoint_analysis_core_structure, only : structure_type
    use axijoint_analysis_core_totals, only : largest_displacement, peak_type
+   use axijoint_analysis_fine_walls, only : most_across
    use axijoint_base_kinds, only : wp, degree
    use axijoint_base_text, only : to_text, count_of, name_of
    use axijoint_element_joint_law, only : joint_law_type, opening_reversible, eta, state_stick
@@ -28,7 +29,7 @@ module axijoint_analysis_core_remarks
    !> Tolerances above this deserve a word
    real(wp), parameter :: coarse_tolerance = 1.0e-3_wp
    !> How many times the residual-force ratio of a linear job stresses may be off, and how much of that deserves a word: in most
-   !> bodies, and in nearly incompressible ones (1.3 and 1.6e4 times were seen)
+   !> bodies, and in nearly incompressible ones (1.3 and 1.6e4 times were seen; test/decks/limits.py)
    real(wp), parameter :: lost = 2.0_wp, shows = 2.0e-6_wp, mean_lost = 2.0e4_wp, mean_shows = 1.0e-3_wp
    !> So many harmonics or increments are named
    integer, parameter :: most_named = 8
@@ -79,6 +80,9 @@ contains
       if (results%locks .and. allocated(results%budget)) call add(remarks, 'elements of a material that is nearly '// &
          'incompressible lock, or nearly so beside corners, and finer ones as well: estimates of errors see little of that; '// &
          '4-node BBAR and 6-node elements do not')
+      if (results%bends_unseen .and. allocated(results%budget)) call add(remarks, 'walls of more than '//to_text(most_across)// &
+         ' elements across, which are long beside the thickness of the wall: estimates of errors see a part of how these bend; '// &
+         'shorter elements, or fewer across, are judged in full')
       pins = pin_text(model, structure, history%loading, field, results)
       if (len(pins) > 0) call add(remarks, pins)
       if (allocated(results%stiffer)) remarks = [remarks, proportion_remarks(model, results)]

@@ -267,6 +267,8 @@ module axijoint_analysis_core_results
       logical :: soft_in_part = .false.
       !> Whether elements lock, as finer ones do: estimates see little of what that leaves
       logical :: locks = .false.
+      !> Whether there are walls of so many elements across that estimates see their bending in part
+      logical :: bends_unseen = .false.
       !> Error of displacements or joint stresses that the iterations leave, where it is more than
       !> the tolerance claims; zero if it is not
       real(wp) :: unsettled = 0.0_wp
@@ -340,7 +342,8 @@ contains
       !> Results
       class(results_type), intent(in) :: self
 
-      hides_errors = self%keeps_slip .or. self%turns_slip .or. self%soft_in_part .or. self%locks
+      hides_errors = self%keeps_slip .or. self%turns_slip .or. self%soft_in_part .or. self%locks &
+         .or. self%bends_unseen
    end function hides_errors
 
 end module axijoint_analysis_core_results

@@ -5,6 +5,7 @@ module axijoint_analysis_fine_level
    use axijoint_analysis_fine_conditions, only : conditions_type, new_conditions
    use axijoint_analysis_fine_mesh, only : fine_mesh_type, parents_type, new_fine_mesh, ordered
    use axijoint_analysis_fine_model, only : new_fine_model
+   use axijoint_analysis_fine_walls, only : walls_type, find_walls
    use axijoint_assembly_equations, only : equations_type
    use axijoint_assembly_loading, only : loading_type, new_initial_state
    use axijoint_assembly_product_stiffness, only : product_stiffness_type, new_product_stiffness, is_formed, n_numbers, &
@@ -58,6 +59,8 @@ module axijoint_analysis_fine_level
       type(parents_type) :: parents
       !> Which components are free in each class of modes
       type(conditions_type), allocatable :: conditions(:)
+      !> Whether there are walls whose bending it sees in part
+      logical :: bends_unseen = .false.
       !> Blocks of nodes
       type(block_groups_type) :: blocks
       !> Time that all this took, over the threads that worked at once [second]
@@ -81,6 +84,7 @@ contains
       !> The fine level; what is free in the classes of modes is for `take_conditions`
       type(fine_level_type), intent(out) :: level
 
+      type(walls_type) :: walls
       type(graph_type) :: graph
       integer, allocatable :: block(:), order(:)
 
@@ -89,7 +93,9 @@ contains
       level%joint_points = new_joint_points(level%model)
       level%support_points = new_support_points(level%model)
       call place_joint_points(model, level)
-      block = new_blocks(model%mesh, level%mesh)
+      walls = find_walls(model%mesh)
+      level%bends_unseen = walls%bends_unseen
+      block = new_blocks(model%mesh, level%mesh, walls%across > 0.0_wp)
       graph = graph_of_blocks(level%model%mesh, block)
       call order_by_blocks(model%mesh, level%mesh, graph, block, order)
       call new_product_stiffness(level%model%mesh, level%support_points, order, block, level%stiffness)
