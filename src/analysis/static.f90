@@ -1,9 +1,10 @@
 !> Static analysis of a structure under its loads, told in order
 module axijoint_analysis_static
    use axijoint_analysis_core_in_situ_balance, only : in_situ_balance
-   use axijoint_analysis_core_displaced_ends, only : run_and_displace
+   use axijoint_analysis_core_fields_beside, only : run_and_find
    use axijoint_analysis_core_increment_fields, only : field_of_state, recover_fields, &
       move_bodies
+   use axijoint_analysis_core_joint_edges, only : pressure_at_edges
    use axijoint_analysis_core_left_out, only : what_was_left_out
    use axijoint_analysis_core_motion, only : motion_text
    use axijoint_analysis_core_named_points, only : largest_at_points
@@ -112,6 +113,7 @@ contains
       results%left_out = what_was_left_out(model, structure)
       results%solver = structure%equations%solver
       if (allocated(structure%singular)) results%singular = structure%singular
+      if (allocated(structure%judged)) results%judged = structure%judged
       results%in_situ = in_situ_balance(model, combination)
       call timer%push(phase_joints)
       if (bodies_yield(model)) then
@@ -137,6 +139,7 @@ contains
       call timer%push(phase_recover)
       call recover_fields(model, structure, history%loading, history%peak, field, results, &
          smoothed=wanted)
+      if (wanted) results%edge_pressure = pressure_at_edges(model%mesh, structure, field, results)
       associate (state => results%states(size(results%states)))
          results%plastic = plastic_fields(model, results%modes, results%stress, &
             state%bodies)
@@ -157,7 +160,10 @@ contains
       if (.not. estimates) results%discretization%largest_displacement = &
          largest_vector(results%modes, results%displacement)
       results%locks = elements_lock(model)
-      if (estimates) results%bends_unseen = structure%fine%bends_unseen
+      if (estimates) then
+         results%bends_unseen = structure%fine%bends_unseen
+         results%edges_unseen = structure%fine%edges_unseen
+      end if
       results%converged = results%converged .and. max(results%residual_ratio, results%mismatch) &
          <= results%tolerance
       if (results%converged) then
@@ -222,7 +228,7 @@ contains
       type(joint_field_type), allocatable :: other
       type(iteration_left_type) :: left
 
-      call run_and_displace(model, structure, combination, history, results, progress, keeper)
+      call run_and_find(model, structure, combination, history, results, progress, keeper)
       if (allocated(history%failure)) then
          error = history%failure
          return

@@ -390,26 +390,62 @@ contains
       !> The factors, shape (points)
       real(wp) :: factor(size(slides))
 
-      !> Least M of which two octaves are known; part of the octave before that one has, at most, where nothing is added; most
+      !> Least M of which two octaves are known; part of the octave before that one has, at most, where nothing is added; the factor where
+      !> there is one harmonic besides 0, so that nothing tells how they fall, and most
       integer, parameter :: least = 4
-      real(wp), parameter :: usual = 0.5_wp, most = 4.0_wp
+      real(wp), parameter :: usual = 0.5_wp, of_one = 2.5_wp, most = 4.0_wp
       real(wp) :: above, middle
       real(wp), allocatable :: stress(:, :, :)
+      real(wp) :: amplitude(size(scene%modes))
+      integer :: harmonic(size(scene%modes))
+      logical :: single
       integer :: k, highest
 
       factor = 1.0_wp
-      highest = maxval(scene%modes(:m)%harmonic)
-      if (highest < least) return
+      harmonic = scene%modes%harmonic
+      highest = maxval(harmonic(:m))
+      single = count(harmonic(:m) > 0 .and. scene%modes(:m)%family == scene%modes(m)%family) == 1
+      if (highest < least .and. .not. single) return
       stress = analyse(scene%planes, field%stress)
       do k = 1, size(stress, 2)
-         above = sum(abs(stress(eta, k, m + 1:)))
-         middle = sum(abs(stress(eta, k, :m)), mask=2*scene%modes(:m)%harmonic > highest)
-         if (.not. slides(k) .or. .not. above > usual*middle .or. .not. &
+         amplitude = abs(stress(eta, k, :))
+         call find_octaves(harmonic, amplitude, highest, middle, above)
+         if (.not. slides(k) .or. .not. (single .or. above > usual*middle) .or. .not. &
              turns_round(all(scene%modes%family == family_symmetric), field%state(k, :), field%stress(:, k, :))) cycle
-         factor(k) = most
-         if (above < middle) factor(k) = min(most, (1.0_wp - usual)/(1.0_wp - above/middle))
+         factor(k) = merge(of_one, most, single)
+         if (.not. single .and. above < middle) factor(k) = min(most, (1.0_wp - usual)/(1.0_wp - above/middle))
       end do
    end function beyond_twice
+
+   !> Sums of amplitudes of the harmonics up to M that are above M/2, and of those above M up to 2 M, as if the ones that have any
+   !> were as many in each as they are on the whole: of harmonics 2, 6, 10, 14, ... there is one up to 6, one up to 12, three up to 24
+   pure subroutine find_octaves(harmonic, amplitude, highest, middle, above)
+      !> Harmonics, and their amplitudes
+      integer, intent(in) :: harmonic(:)
+      real(wp), intent(in) :: amplitude(:)
+      !> M
+      integer, intent(in) :: highest
+      !> The sums
+      real(wp), intent(out) :: middle, above
+
+      !> Part of the largest of an octave below which a harmonic has none
+      real(wp), parameter :: none = 0.25_wp
+      logical, dimension(size(harmonic)) :: lower, upper
+      integer :: n
+
+      lower = 2*harmonic > highest .and. harmonic <= highest
+      upper = harmonic > highest .and. harmonic <= 2*highest
+      middle = sum(amplitude, mask=lower)
+      above = sum(amplitude, mask=upper)
+      lower = lower .and. amplitude > none*maxval(amplitude, mask=lower)
+      upper = upper .and. amplitude > none*maxval(amplitude, mask=upper)
+      n = count(lower .or. upper)
+      if (.not. any(lower) .or. .not. any(upper)) return
+      associate (distance => real(maxval(harmonic, mask=upper) - minval(harmonic, mask=lower), wp)/(n - 1))
+         middle = middle*highest/(2.0_wp*distance*count(lower))
+         above = above*highest/(distance*count(upper))
+      end associate
+   end subroutine find_octaves
 
    !> Whether slip round the bodies turns round from one plane to the next
    pure logical function turns_round(half, state, stress)
@@ -579,11 +615,11 @@ contains
       with_more%pending = 0.0_wp*with_more%excess
    end subroutine add_harmonics
 
-   !> Modes that follow those of a job, up to 2 M
+   !> Modes that follow those of a job, up to 2 M, and to three times the lowest: friction answers a harmonic in that first
    pure function modes_above(modes) result(above)
       !> Modes of the job
       type(mode_type), intent(in) :: modes(:)
-      !> The next, at most as many
+      !> The next: as many, but for two that follow one
       type(mode_type), allocatable :: above(:)
 
       integer :: step, last, m, family
@@ -592,7 +628,7 @@ contains
       last = maxval(modes%harmonic)
       if (last == 0) return
       step = minval(modes%harmonic, mask=modes%harmonic > 0)
-      do m = last + step, 2*last, step
+      do m = last + step, max(2*last, 3*step), step
          do family = family_symmetric, family_antisymmetric
             if (any(modes%family == family .and. modes%harmonic > 0)) &
                above = [above, mode_type(m, family)]

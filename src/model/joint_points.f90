@@ -4,13 +4,13 @@ module axijoint_model_joint_points
    use axijoint_element_joint, only : joint_point_type, new_joint_point, lower_node
    use axijoint_element_joint_law, only : joint_law_type, law_elastic
    use axijoint_fe_quadrature, only : gauss_rule, lobatto_rule
+   use axijoint_model_joint_sides, only : elements_beside, moduli_beside, least_modulus
    use axijoint_model_material, only : joint_material_type, rule_centroid, rule_gauss
    use axijoint_model_model, only : model_type
-   use axijoint_model_neighbours, only : neighbours_type, new_neighbours, element_at_edge
    implicit none
    private
-   public :: model_joint_point_type, new_joint_points, joint_rule, stiffness_ratio, law_at, least_moduli, &
-      stiffest_whole, stiffest_sliding, in_structure
+   public :: model_joint_point_type, new_joint_points, joint_rule, stiffness_ratio, law_at, stiffest_whole, stiffest_sliding, &
+      in_structure
 
    !> k h/E up to which joints that can yield act in the structure with their whole stiffness, and what stiffer ones have there. What
    !> these do beyond that is left to the iteration on their laws: a structure that is condensed with stiff joints loses what the
@@ -33,7 +33,7 @@ module axijoint_model_joint_points
       !> Stiffness along xi, eta, theta that the structure has there: k of the law or, of a joint
       !> that can yield and is much stiffer than the bodies, less [stress/length]
       real(wp) :: base(3) = 0.0_wp
-      !> Elements at side 1-2 and at side 4-3, if the job has in-situ stresses
+      !> Elements at side 1-2 and at side 4-3
       integer :: elements(2) = 0
    end type model_joint_point_type
 
@@ -48,25 +48,21 @@ contains
       !> The points
       type(model_joint_point_type), allocatable :: points(:)
 
-      type(neighbours_type) :: neighbours
-      real(wp) :: x(3), w(3), side(2, 3), length, least, modulus(size(model%mesh%node_label))
-      integer :: joint, k, n, n_pairs, count, elements(2)
-      logical :: in_situ
+      real(wp) :: x(3), w(3), side(2, 3), length, least
+      real(wp) :: modulus(3, size(model%mesh%joint_label))
+      integer :: elements(2, size(model%mesh%joint_label))
+      integer :: joint, k, n, n_pairs, count
 
-      in_situ = size(model%initial_stresses) > 0
-      if (in_situ) neighbours = new_neighbours(model%mesh)
-      elements = 0
       allocate (points(3*size(model%mesh%joint_label)))
       count = 0
-      modulus = least_moduli(model)
-      least = minval(modulus)
+      elements = elements_beside(model%mesh)
+      modulus = moduli_beside(model, elements)
+      least = least_modulus(model)
       do joint = 1, size(model%mesh%joint_label)
          n_pairs = model%mesh%joint_size(joint)/2
          associate (nodes => model%mesh%joint_nodes(:, joint), &
                     material => model%mesh%joint_material(joint))
             side(:, :n_pairs) = model%mesh%coordinates(:, nodes(lower_node(:n_pairs)))
-            if (in_situ) elements = [element_at_edge(model%mesh, neighbours, nodes(1), nodes(2)), &
-                                     element_at_edge(model%mesh, neighbours, nodes(4), nodes(3))]
             if (present(rule)) then
                call joint_rule(rule, n_pairs, n, x, w)
             else
@@ -79,9 +75,9 @@ contains
                points(count)%joint = joint
                points(count)%material = material
                points(count)%nodes = nodes
-               points(count)%elements = elements
+               points(count)%elements = elements(:, joint)
                call set_stiffness(model%joint_materials(material), &
-                  length/minval(modulus(nodes(:2*n_pairs))), length/least, points(count))
+                  modulus(:, joint)/length, length/least, points(count))
             end do
          end associate
       end do
@@ -111,8 +107,9 @@ contains
    pure subroutine set_stiffness(material, beside, flexibility, point)
       !> Material of the joint
       type(joint_material_type), intent(in) :: material
-      !> Length of the joint over the least modulus of the bodies beside it and of all bodies, h/E
-      real(wp), intent(in) :: beside, flexibility
+      !> Moduli of the softer body beside the joint over its length, E/h along xi, eta, theta, and its length over the least modulus
+      !> of all bodies
+      real(wp), intent(in) :: beside(3), flexibility
       !> The point
       type(model_joint_point_type), intent(inout) :: point
 
@@ -120,7 +117,7 @@ contains
 
       can_yield = material%law%kind /= law_elastic
       point%stiffness = material%law%stiffness
-      if (can_yield) point%stiffness = min(point%stiffness, material%rigid/beside)
+      if (can_yield) point%stiffness = min(point%stiffness, material%rigid*min(beside, huge(1.0_wp)/material%rigid))
       point%proportion = maxval(point%stiffness)*flexibility
       point%base = point%stiffness
       if (can_yield .and. point%proportion > stiffest_whole) &
@@ -147,27 +144,6 @@ contains
       law = material%law
       law%stiffness = point%stiffness
    end function law_at
-
-   !> Least modulus E of the elements at each node; the largest number where there are none
-   pure function least_moduli(model) result(modulus)
-      !> The job
-      type(model_type), intent(in) :: model
-      !> Shape (nodes)
-      real(wp) :: modulus(size(model%mesh%node_label))
-
-      real(wp) :: young
-      integer :: element
-
-      modulus = huge(1.0_wp)
-      do element = 1, size(model%mesh%element_label)
-         associate (nodes => model%mesh%element_nodes(:model%mesh%element_size(element), element), &
-                    material => model%materials(model%mesh%element_material(element)))
-            young = material%young
-            if (material%orthotropic) young = minval(material%moduli)
-            modulus(nodes) = min(modulus(nodes), young)
-         end associate
-      end do
-   end function least_moduli
 
    !> Stiffness of the joints in proportion to the bodies: the largest k h/E, with
    !> the length h of a joint and the least modulus E of the elements

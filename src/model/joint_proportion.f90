@@ -2,7 +2,7 @@
 module axijoint_model_joint_proportion
    use axijoint_base_kinds, only : wp
    use axijoint_element_joint_law, only : joint_law_type, law_elastic, eta
-   use axijoint_model_joint_points, only : least_moduli
+   use axijoint_model_joint_sides, only : elements_beside, moduli_beside
    use axijoint_model_model, only : model_type
    implicit none
    private
@@ -20,7 +20,7 @@ module axijoint_model_joint_proportion
       !> Number of joints
       integer :: n_joints = 0
       !> Least and largest k h/E of them, along xi, eta, theta: with the length h of a joint and
-      !> the least modulus E of the elements at its nodes
+      !> the modulus E of the softer body beside it
       real(wp) :: least(3) = huge(1.0_wp), largest(3) = 0.0_wp
    end type proportion_type
 
@@ -33,20 +33,18 @@ contains
       !> One for each law
       type(proportion_type), allocatable :: proportions(:)
 
-      real(wp), allocatable :: modulus(:)
-      real(wp) :: ratio(3)
+      real(wp) :: ratio(3), modulus(3, size(model%mesh%joint_label))
       integer :: joint
 
       allocate (proportions(size(model%joint_materials)))
       if (size(model%mesh%joint_label) == 0) return
-      modulus = least_moduli(model)
+      modulus = moduli_beside(model, elements_beside(model%mesh))
       do joint = 1, size(model%mesh%joint_label)
          associate (of_law => proportions(model%mesh%joint_material(joint)), &
                     law => model%joint_materials(model%mesh%joint_material(joint))%law, &
-                    nodes => model%mesh%joint_nodes(:model%mesh%joint_size(joint), joint))
+                    nodes => model%mesh%joint_nodes(:, joint))
             ratio = law%stiffness*norm2(model%mesh%coordinates(:, nodes(2)) - &
-               model%mesh%coordinates(:, nodes(1))) &
-               /minval(modulus(nodes))
+               model%mesh%coordinates(:, nodes(1)))/modulus(:, joint)
             of_law%n_joints = of_law%n_joints + 1
             of_law%least = min(of_law%least, ratio)
             of_law%largest = max(of_law%largest, ratio)

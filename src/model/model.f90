@@ -14,13 +14,13 @@ module axijoint_model_model
    use axijoint_model_mesh, only : mesh_type
    use axijoint_model_request, only : line_type, point_type, keep_type, keep_names, cut_type, &
       print_type, supported_face_type, sweep_type, &
-      error_goal_type, is_kept
+      error_goal_type, is_kept, keep_stress, keep_series
    use axijoint_model_restraint, only : restraint_type, acts_in
    use axijoint_model_strips, only : grid_type
    use axijoint_solver_entry, only : solver_entry_type
    implicit none
    private
-   public :: model_type, is_shown, n_shown, held_components, held_at, can_yield, can_yield_at, &
+   public :: model_type, is_shown, n_shown, shows_stress, held_components, held_at, can_yield, can_yield_at, &
       bodies_yield, on_axis
    public :: method_newton, method_total, method_anderson, method_transfer, method_names
    public :: body_anderson, body_newton, body_lbfgs, body_transfer, body_method_names
@@ -227,5 +227,16 @@ contains
 
       n_shown = count([(is_shown(model, i, size(model%increments)), i=1, size(model%increments) - 1)])
    end function n_shown
+
+   !> Whether a file shows stresses of an increment at nodes, or between these in sections
+   elemental logical function shows_stress(model, increment, last)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> The increment, and the last
+      integer, intent(in) :: increment, last
+
+      shows_stress = is_kept(model%keep(keep_stress), increment, last) .or. model%sweep%wanted .or. model%old_listing
+      if (size(model%lines) > 0) shows_stress = shows_stress .or. is_kept(model%keep(keep_series), increment, last)
+   end function shows_stress
 
 end module axijoint_model_model

@@ -1,6 +1,7 @@
 !> A finished run in a dozen lines, for the terminal
 module axijoint_output_brief
-   use axijoint_analysis_core_results, only : results_type, peak_type
+   use axijoint_analysis_core_fields, only : peak_type
+   use axijoint_analysis_core_results, only : results_type
    use axijoint_analysis_core_totals, only : largest_displacement, count_states, n_unknowns
    use axijoint_base_kinds, only : wp, degree
    use axijoint_base_system, only : peak_memory_mb
@@ -47,7 +48,7 @@ contains
          to_text(size(results%modes))//" harmonics, highest m = "// &
          to_text(maxval(results%modes%harmonic)))
       if (n_joints(job%model%mesh) > 0) text = text//stiffness_lines(job%model, results)
-      if (size(results%joint_state) > 0) text = text//joint_lines(results)
+      if (size(results%joint_state) > 0) text = text//joint_lines(job%model, results)
       text = text//line("residual ratio", to_text(results%residual_ratio))// &
          line("equilibrium error", to_text(results%equilibrium_error)//" on the whole, "// &
          to_text(results%part_error)//" on the worst part")// &
@@ -165,10 +166,12 @@ contains
    end function stiffness_lines
 
    !> States of the joints and the largest pressure
-   pure function joint_lines(results) result(text)
+   pure function joint_lines(model, results) result(text)
+      !> The job
+      type(model_type), intent(in) :: model
       !> Results with at least one joint point
       type(results_type), intent(in) :: results
-      !> Two lines
+      !> Two lines, or three
       character(len=:), allocatable :: text
 
       text = line("joint states", to_text(count_states(results, state_stick))//" stick, "// &
@@ -184,7 +187,37 @@ contains
             text = text//line("largest pressure", "none, no joint is pressed")
          end if
       end associate
+      text = text//edge_line(model, results)
    end function joint_lines
+
+   !> Pressure at an edge of joints, where it is more than at any point and not infinite
+   pure function edge_line(model, results) result(text)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Results
+      type(results_type), intent(in) :: results
+      !> A line; empty if there is nothing to tell
+      character(len=:), allocatable :: text
+
+      !> Pressure at an edge over the largest of points, at least; nodes nearer than this part of the radius are at one place
+      real(wp), parameter :: much_more = 1.02_wp, near = 1.0e-9_wp
+      real(wp) :: digit
+      integer :: k
+
+      text = ""
+      associate (edge => results%edge_pressure, x => model%mesh%coordinates)
+         if (.not. edge%value > much_more*max(0.0_wp, results%pressure%value)) return
+         if (allocated(results%singular)) then
+            do k = 1, size(results%singular)
+               if (norm2(x(:, results%singular(k)%node) - x(:, edge%place)) <= near*x(1, edge%place)) return
+            end do
+         end if
+         digit = 10.0_wp**(floor(log10(edge%value)) - 2)
+         text = line("at an edge of joints", "about "//to_text(digit*anint(edge%value/digit))//" at r = "// &
+            to_text(x(1, edge%place))//", z = "//to_text(x(2, edge%place))//", theta = "//to_text(edge%angle/degree)// &
+            " degrees, by a line through the points before it")
+      end associate
+   end function edge_line
 
    !> The largest displacement
    pure function displacement_line(model, results) result(text)

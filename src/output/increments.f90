@@ -1,7 +1,8 @@
 !> Results of all increments, one after the other, for every file that shows them
 module axijoint_output_increments
    use omp_lib, only : omp_get_max_threads
-   use axijoint_analysis_core_increment_fields, only : solve_increment, solve_increments, recover_state
+   use axijoint_analysis_core_fields, only : fields_type
+   use axijoint_analysis_core_increment_fields, only : solve_increment, solve_increments, is_found, recover_state, move_bodies
    use axijoint_analysis_core_results, only : results_type
    use axijoint_analysis_core_series, only : series_type, new_series, append_increment
    use axijoint_analysis_core_solution, only : solved_state_type
@@ -11,10 +12,9 @@ module axijoint_output_increments
    use axijoint_base_text, only : to_text
    use axijoint_base_timer, only : phase_recover
    use axijoint_job_job, only : job_type
-   use axijoint_joints_states, only : increment_state_type
    use axijoint_model_mesh, only : n_nodes
-   use axijoint_model_model, only : model_type, is_shown
-   use axijoint_model_request, only : is_kept, keep_series, keep_stress
+   use axijoint_model_model, only : model_type, is_shown, shows_stress
+   use axijoint_model_request, only : is_kept, keep_series
    use axijoint_output_file_hdf5, only : hdf5_file_type
    use axijoint_output_hdf5_history, only : history_fields_type, begin_history, put_history, &
       end_history, write_series
@@ -58,6 +58,7 @@ contains
       type(history_fields_type) :: fields
       type(solved_state_type), allocatable :: solved(:)
       integer, allocatable :: shown(:)
+      logical, allocatable :: found(:)
       integer :: first, i, k, last, n
 
       last = size(results%states)
@@ -72,14 +73,16 @@ contains
          do first = 1, size(shown), size(solved)
             n = min(size(solved), size(shown) - first + 1)
             call show_progress(job%progress, 'fields of increment '//to_text(shown(first))//' of '//to_text(last))
-            call solve_increments(model, structure, states, shown(first:first + n - 1), solved(:n), error, &
-               results%displaced)
-            if (allocated(error)) exit
-            !$omp parallel do ordered schedule(dynamic) if (n > 1)
-            do k = 1, n
-               call find(shown(first + k - 1), solved(k))
-            end do
-            !$omp end parallel do
+            associate (now => shown(first:first + n - 1))
+               found = [(is_found(states(now(k))%increment, results%earlier), k=1, n)]
+               call solve_increments(model, structure, states, pack(now, .not. found), solved(:count(.not. found)), error)
+               if (allocated(error)) exit
+               !$omp parallel do ordered schedule(dynamic) if (n > 1)
+               do k = 1, n
+                  call find(now(k), found(k), solved(max(1, count(.not. found(:k)))))
+               end do
+               !$omp end parallel do
+            end associate
          end do
          if (.not. allocated(error)) call put(last, results)
          call job%timer%pop()
@@ -102,18 +105,27 @@ contains
       end function at_once
 
       !> Find the fields of an increment, and hand them to the files when its turn comes
-      subroutine find(i, solved)
+      subroutine find(i, found, solved)
          !> Its place
          integer, intent(in) :: i
-         !> Its displacements
+         !> Whether they were found beside the iterations
+         logical, intent(in) :: found
+         !> Its displacements, if not
          type(solved_state_type), intent(inout) :: solved
 
-         type(results_type) :: earlier
+         type(fields_type) :: fields
 
-         call recover_state(job%model, job%structure, results%states(i), results, solved, earlier, &
-            smoothed=shows_stress(job%model, results%states(i), results%states(last)))
+         associate (model => job%model, structure => job%structure, state => results%states(i))
+            if (found) then
+               fields = results%earlier(state%increment)
+            else
+               call recover_state(model, structure, state, results%plane_angles, solved, fields, &
+                  smoothed=shows_stress(model, state%increment, results%states(last)%increment))
+            end if
+            call move_bodies(model, structure, state, fields)
+         end associate
          !$omp ordered
-         call put(i, earlier)
+         call put(i, fields)
          !$omp end ordered
       end subroutine find
 
@@ -122,7 +134,7 @@ contains
          !> Its place
          integer, intent(in) :: i
          !> The fields
-         type(results_type), intent(in) :: now
+         class(fields_type), intent(in) :: now
 
          associate (model => job%model, structure => job%structure)
             if (is_kept(model%keep(keep_series), results%states(i)%increment, &
@@ -148,27 +160,17 @@ contains
       !> Out of memory
       type(error_type), allocatable, intent(out) :: error
 
-      type(results_type) :: earlier
-      integer :: i, last
+      type(fields_type) :: fields
+      integer :: i
 
-      last = size(results%states)
-      do i = 1, last - 1
-         if (.not. is_shown(job%model, results%states(i)%increment, results%states(last)%increment)) cycle
-         call solve_increment(job%model, job%structure, i, results, earlier, error, &
-            smoothed=shows_stress(job%model, results%states(i), results%states(last)))
-         if (allocated(error)) return
-      end do
+      associate (states => results%states, last => results%states(size(results%states))%increment)
+         do i = 1, size(states) - 1
+            if (.not. is_shown(job%model, states(i)%increment, last)) cycle
+            call solve_increment(job%model, job%structure, i, states, results%plane_angles, fields, error, &
+               smoothed=shows_stress(job%model, states(i)%increment, last))
+            if (allocated(error)) return
+         end do
+      end associate
    end subroutine help_with_increments
-
-   !> Whether a file shows stresses of an increment at nodes, or between these in sections
-   pure logical function shows_stress(model, state, last) result(shows)
-      !> The job
-      type(model_type), intent(in) :: model
-      !> The end of the increment, and of the last
-      type(increment_state_type), intent(in) :: state, last
-
-      shows = is_kept(model%keep(keep_stress), state%increment, last%increment) .or. model%sweep%wanted .or. model%old_listing
-      if (size(model%lines) > 0) shows = shows .or. is_kept(model%keep(keep_series), state%increment, last%increment)
-   end function shows_stress
 
 end module axijoint_output_increments

@@ -1,6 +1,7 @@
 !> What a study keeps of a row: numbers with names, increment by increment
 module axijoint_study_quantities
-   use axijoint_analysis_core_results, only : results_type, error_share_type, n_resultants
+   use axijoint_analysis_core_fields, only : n_resultants
+   use axijoint_analysis_core_results, only : results_type, error_share_type
    use axijoint_analysis_core_series, only : series_type
    use axijoint_analysis_core_yield_errors, only : yield_share_type, sum_of_yield_shares
    use axijoint_analysis_error_budget, only : sum_of_shares

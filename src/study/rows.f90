@@ -1,6 +1,7 @@
 !> The rows of a study, solved one after the other: those that share a structure share one
 !> condensation
 module axijoint_study_rows
+   use axijoint_analysis_core_fields, only : fields_type
    use axijoint_analysis_core_increment_fields, only : solve_increment
    use axijoint_analysis_core_results, only : results_type
    use axijoint_analysis_core_same_structure, only : same_structure
@@ -282,7 +283,8 @@ contains
       !> Out of memory
       type(error_type), allocatable, intent(out) :: error
 
-      type(results_type) :: results, earlier
+      type(results_type) :: results
+      type(fields_type) :: earlier
       type(series_type) :: series
       integer :: i
 
@@ -293,7 +295,7 @@ contains
       row%message = said_of(results, warnings)
       series = new_series(model, results, size(results%states))
       do i = 1, size(results%states) - 1
-         call solve_increment(model, rows%structure, i, results, earlier, error)
+         call solve_increment(model, rows%structure, i, results%states, results%plane_angles, earlier, error)
          if (allocated(error)) return
          call append_increment(model, rows%structure, results, i, earlier, series)
       end do

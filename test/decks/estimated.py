@@ -642,10 +642,10 @@ def idle_motion(program, folder):
     return faults
 
 
-def more_harmonics(program, folder, make, least):
+def more_harmonics(program, folder, make, least, harmonics=(4, 20)):
     """A fault, unless the error of joint stress by harmonics is about that beside a run with many more"""
     found = []
-    for harmonic in (4, 20):
+    for harmonic in harmonics:
         summary, tables = solved(program, folder, f'harmonic{harmonic}', make(harmonic))
         found.append(([(row['tau_xi'], row['sigma'], row['tau_theta']) for row in tables['joints']], summary['errors']))
     (rough, errors), (better, _) = found
@@ -660,6 +660,50 @@ def load_beyond(program, folder):
               for fault in more_harmonics(program, folder, lambda harmonic, law=law: JACK.format(harmonic=harmonic, law=law), 0.2)]
     summary, _ = solved(program, folder, 'jack', JACK.format(harmonic=2, law='0,30').replace('SHAPES', 'ERROR\n2.0,JOINTS\nSHAPES'))
     return faults + ([] if summary['errors']['sum']['joint_stress'] < 0.02 else [f'not within the target: {summary["errors"]["sum"]}'])
+
+
+LINING = """TITLE
+Lining in ground that presses it unequally
+CONTROL
+{harmonic},49
+MATERIALS
+1,3e4,0.2
+2,200,0.3
+LAWS
+1,{k},{k},{k},0.0,20.0
+LAWDETAILS
+1,RESULTANT
+BLOCKS
+1,1,8,2,1
+2.7,0,3,0.5
+2,2,8,12,1,10.0
+3,0,20,0.5
+FACES
+1,1,3,0,3,.5
+2,2,3,0,3,.5
+3,2,20,0,20,.5
+4,1,2.7,0,3,0
+5,1,2.7,.5,3,.5
+6,2,3,0,20,0
+7,2,3,.5,20,.5
+INTERFACES
+1,1,2
+FIXEDFACES
+4,010
+5,010
+6,010
+7,010
+TRACTIONS
+3,0,-1.0,0,0
+3,{m},0.6,0,-0.6
+END
+"""
+
+
+def lining(program, folder):
+    """Friction answers a load that goes round the circle with cos m theta in harmonics 3 m, 5 m, ..., of which those up to 2 m tell nothing"""
+    return [f'k = {k}, M = {harmonic}: {fault}' for harmonic, k in ((2, 1e3), (3, 1e3), (6, 1e4), (12, 1e4))
+            for fault in more_harmonics(program, folder, lambda M, k=k: LINING.format(harmonic=M, k=k, m=2), 0.5, (harmonic, 48))]
 
 
 def slip_of_larger_loads(program, folder):
@@ -771,11 +815,15 @@ def rim(program, folder):
                 true, told = abs(shell/found - 1), summary['errors']['discretization']['displacement']
                 if not true/told < 2.5:
                     faults.append(f't = {thickness}, {nodes} nodes, {across} x {along}: true {true:.4f}, told {told:.4f}')
-    for across, along, wanted in ((5, 8, True), (4, 8, False), (5, 16, False)):
-        deck = RIM.format(nodes=8, across=across, along=along, inner=0.995, outer=1.005, traction=100)
+    for thickness, across, along, wanted in ((0.01, 5, 8, True), (0.01, 4, 8, False), (0.01, 5, 16, False), (0.0003, 1, 9, True),
+                                             (0.0003, 1, 10, False)):
+        deck = RIM.format(nodes=8, across=across, along=along, inner=1 - thickness/2, outer=1 + thickness/2, traction=1/thickness)
         words = solved(program, folder, 'rim', deck)[0]['errors']['in_words']
         faults += expected(f'{across} x {along}: {words}', wanted, words.startswith('displacement at least'))
-    return faults
+    # elements so long that they see nothing of how rims bend, which have short ones
+    short = deck.replace('1,1,8,1,10\n', '1,1,8,1,6\n').replace(',1\nFACES', ',0.1\n1,1,8,1,1\n0.99985,0.1,1.00015,0.9\n1,1,8,1,6\n0.99985,0.9,1.00015,1\nFACES')
+    words = solved(program, folder, 'rim', short)[0]['errors']['in_words']
+    return faults + expected(f'short at the rims: {words}', False, words.startswith('displacement at least'))
 
 
 def built_in(program, folder):
@@ -995,7 +1043,7 @@ def stiff_in_part(program, folder):
 def tests(program):
     """The tests of this module"""
     named = {'joint that reaches the axis': reaches_axis, 'gaps between harmonics': gaps, 'patch of rigid motion': rigid_patch,
-             'flies off': flies_off, 'idle motion': idle_motion, 'bent': bent, 'rim': rim, 'built in': built_in, 'points with names': named_points, 'rules in ground': rules_in_ground, 'loose': loose, 'units of length': units_of_length,
+             'flies off': flies_off, 'idle motion': idle_motion, 'bent': bent, 'rim': rim, 'lining': lining, 'built in': built_in, 'points with names': named_points, 'rules in ground': rules_in_ground, 'loose': loose, 'units of length': units_of_length,
              'least of yielding': least_of_yielding, 'locked': locked, 'torn bonds': torn_bonds, 'nearly incompressible': nearly_incompressible,
              'load beyond M': load_beyond, 'pressed bonds': pressed_bonds, 'slip of larger loads': slip_of_larger_loads,
              'smooth pile': smooth_pile, 'free of stress': stress_free, 'stiff beside soft': stiff_beside_soft,

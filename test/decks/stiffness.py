@@ -1,6 +1,7 @@
 """Joints soft or stiff out of proportion to the bodies: k h/E as it follows by hand, and the change that
 ten times the stiffness makes against runs with ten times the stiffness"""
 import json
+import math
 import os
 import re
 
@@ -154,10 +155,106 @@ def either_way(program, folder):
     return faults + expected('k h/E', [True, False], [result.law(1)['kappa_eta'][1] < 1e4 for result in (below, above)])
 
 
+# A column of two rings, the upper one of which has a neighbour
+COLUMN = """TITLE
+Column
+CONTROL
+0
+MATERIALS
+1, 210000., 0.
+3, {filler}, 0.
+ORTHOTROPIC
+2, {young}, {young}, {round}
+0., 0., 0., 80000., {round}, {round}
+LAWS
+1, 1E6, 1E6, 1E6, , 20.
+BLOCKS
+1, 1, 8, 1, 2
+100., 0., 120., 50.
+2, {upper}, 8, 1, 2
+100., 50., 120., 100.
+2, 3, 8, 1, 2
+120., 50., 130., 100.
+FACES
+1, 1, 100., 50., 120., 50.
+2, 2, 100., 50., 120., 50.
+3, 1, 100., 0., 120., 0.
+4, 2, 100., 100., 120., 100.
+INTERFACES
+1, 1, 2
+FIXEDFACES
+3, 010
+PRESSURES
+4, 0, 100.
+END
+"""
+
+
+def beside_softer(program, folder):
+    """How stiff a joint may be follows from how the bodies resist it on both sides: not from how soft they are round the circle, as a
+    slotted ring, nor from a soft filler that has one end of the joint. The column shortens by p (2 L/E + 1/k)"""
+    exact = 100.0*(100.0/210000.0 + 1e-6)
+    faults = []
+    for name, fields, upper in (('slotted', {'round': 1.0, 'filler': 1.0}, 2), ('very soft', {'round': 1e-2, 'filler': 1e-2}, 2),
+                                ('filler', {'round': 1e3, 'filler': 1.0}, 1)):
+        result = Result(program, folder, 'column', COLUMN.format(young=210000.0, upper=upper, **fields))
+        shortening = max(abs(row['v']) for row in listing.tables(read_text(os.path.join(folder, 'column.lis')))['m = 0'] if row['r'] <= 120.0)
+        faults += [] if abs(shortening/exact - 1.0) < 1e-3 else [f'{name}: {shortening:.6f}, exact {exact:.6f}']
+        faults += expected(f'{name}: k h/E', True, 95.0 < result.law(1)['kappa_eta'][1] < 95.5)
+    return faults
+
+
+RIGID_DISC = """TITLE
+A disc on a joint, pressed beside its middle
+CONTROL
+1
+MATERIALS
+1, 1E9, 0.
+LAWS
+1, 1E4, 1E4, 1E4, {law}
+BLOCKS
+1, 1, 8, 1, 2
+0., 0., 0.5, 1.
+2, 1, 8, 1, 1
+0., -1., 0.5, 0.
+FACES
+1, 1, 0., 0., 0.5, 0.
+2, 2, 0., 0., 0.5, 0.
+3, 2, 0., -1., 0.5, -1.
+4, 1, 0., 1., 0.5, 1.
+INTERFACES
+1, 1, 2
+FIXEDFACES
+3, 111
+RESULTANTS
+4, AXIAL, -1.
+4, MOMENT, 0.05
+END
+"""
+
+
+def pressure_at_edge(program, folder):
+    """Pressure under a rigid disc is linear, N/A + M r/I: at points of integration, and at the edge, where the last of Gauss's is not;
+    Lobatto's rule has a point there, and nothing more is told"""
+    area, inertia = math.pi*0.25, math.pi*0.5**4/4
+    faults = []
+    for law in ('0., 30.', ',,ELASTIC', '0., 30., PAPER, LOBATTO'):
+        out = Result(program, folder, 'disc', RIGID_DISC.format(law=law)).out
+        (value, radius) = map(float, re.search(r'^largest pressure +(\S+) at r = (\S+),', out, re.M).groups())
+        faults += [] if abs(value/(1/area + 0.05*radius/inertia) - 1) < 1e-3 else [f'{law}: {value} at {radius}']
+        edge = re.search(r'^at an edge of joints +about (\S+) at r = 0.5,', out, re.M)
+        faults += expected(f'{law}: an edge', 'LOBATTO' not in law, edge is not None)
+        if edge and abs(float(edge[1])/(1/area + 0.05*0.5/inertia) - 1) > 6e-3:  # three digits
+            faults.append(f'{law}: {edge[0]}')
+    return faults
+
+
 def tests(program):
     """One test a scene"""
     return [Test('stiffness: k h/E', lambda folder: proportions(program, folder)),
             Test('stiffness: whole in the structure or in part', lambda folder: either_way(program, folder)),
+            Test('stiffness: beside softer bodies', lambda folder: beside_softer(program, folder)),
+            Test('stiffness: pressure at an edge', lambda folder: pressure_at_edge(program, folder)),
             Test('stiffness: range', lambda folder: sides(program, folder))] + [
         Test(f'stiffness: ten times, {name}',
              lambda folder, make=make, laws=laws: tenfold(program, folder, make, laws))

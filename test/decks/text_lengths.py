@@ -15,14 +15,14 @@ AT_ONCE = [
      ('yield_errors_MOD',)),  # one thread where bodies yield
     (('plan_levels._omp_fn.0',), ('plan_levels._omp_fn.1',), ()), (('plan_levels._omp_fn.0',), ('plan_levels._omp_fn.2',), ()),
     (('plan_levels._omp_fn.1',), ('plan_levels._omp_fn.2',), ()),
-    (('run_and_displace._omp_fn.0', 'newton_method_MOD_balance', 'joints_total_MOD_balance', 'joints_transfer_MOD_balance',
+    (('run_and_find._omp_fn.0', 'newton_method_MOD_balance', 'joints_total_MOD_balance', 'joints_transfer_MOD_balance',
       'joints_increments_MOD', 'job_checkpoint_MOD'),
-     ('displaced_ends_MOD_keep._omp_fn.0', 'solver_sparse_MOD_solve', 'solver_type_MOD_solve_apart'),
+     ('fields_beside_MOD_keep._omp_fn.0', 'fields_beside_MOD_find_states', 'increment_fields_MOD_recover_state', 'solver_sparse_MOD_solve', 'solver_type_MOD_solve_apart'),
      ('report_failure',)),  # all factors are there
     (('job_read_MOD_read_job',), ('file_hdf5_MOD_start_library',), ())]
 # Regions that reach such procedures in one thread at a time: as above, and in an ordered part
 ALONE = ('write_arrays_and_listing', 'structure_MOD_plan_levels', 'output_increments_MOD_write_increments',
-         'displaced_ends_MOD_run_and_displace', 'displaced_ends_MOD_keep', 'command_run_MOD_begin')
+         'fields_beside_MOD_run_and_find', 'fields_beside_MOD_keep', 'command_run_MOD_begin')
 
 
 def code_of(path):

@@ -928,6 +928,39 @@ def estimated(folder, program):
         missing, (True, None), (missing in errors['in_words'], errors['discretization']['load']))
 
 
+# A bar whose end is turned
+TWISTED = """TITLE
+Bar
+CONTROL
+1,,,2
+MATERIALS
+1, 2E5, 0.3
+YIELD
+1, MISES, 200.
+BLOCKS
+1, 1, 8, 8, 2
+0., 0., 10., 10.
+FACES
+1, 1, 0., 0., 10., 0.
+2, 1, 0., 10., 10., 10.
+FIXEDFACES
+1, 001
+1, 010
+MOVEDFACES
+2, 0, , , 0., , , -0.02, A, {which}
+END
+"""
+
+
+def moved_face(folder, program):
+    """A bar whose face is twisted beyond yield, in its harmonic alone or in every one: the same loads, and the same errors of them"""
+    told = []
+    for which in ('EVERY', 'ONLY'):
+        summary = run(program, folder, TWISTED.format(which=which))
+        told.append(summary['yielding']['errors']['discretization']['load'])
+    return [] if abs(told[1]/told[0] - 1.0) < 1e-6 and told[0] < 0.01 else [f'errors of the load: {told}']
+
+
 def study(folder, program):
     """Rows of a study are runs of the decks with their strengths, on one structure"""
     deck = write(folder, 'studied.dat', cylinder((1.0, 0.4), law='1, TRESCA, {strength}'))
@@ -984,5 +1017,5 @@ def tests(program):
             made('pulled out', pulled_out), made('found loads beside joints', found_loads),
             made('Newton beside joints', newton_beside_joints),
             made('cohesion that is lost', cohesion_that_is_lost),
-            made('no envelope', no_envelope), made('estimated', estimated), made('study', study), made('pictures', pictures),
+            made('no envelope', no_envelope), made('estimated', estimated), made('moved face', moved_face), made('study', study), made('pictures', pictures),
             made('cuts of bodies', cut_bodies)]

@@ -109,8 +109,9 @@ class Cards:
             friction
         friction: friction angle φ of MOHR and DRUCKER [degree]; if not given: 0; allowed: 0 ≤ φ < 90
         dilation: angle of dilation ψ of MOHR and DRUCKER [degree]; if not given: 0; allowed: 0 ≤ ψ ≤ φ
-        hardening: hardening H': what the strength gains by a plastic strain of one [stress]; if not given: 0;
-            allowed: H' ≥ 0
+        hardening: hardening H' [stress]: what the strength gains by a uniaxial plastic strain of one, TRESCA
+            and MISES; of MOHR the cohesion gains 2 cos φ/(1 − sin ψ) H' by one in axial compression; if not
+            given: 0; allowed: H' ≥ 0
         tension: tension that is borne at most [stress]: of TRESCA and MOHR the largest principal stress, of
             MISES and DRUCKER the mean stress; if not given: what the criterion allows; allowed: ≥ 0; below the
             apex of MOHR and DRUCKER

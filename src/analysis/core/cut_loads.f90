@@ -1,7 +1,7 @@
 !> Distributed loads on elements that a cut passes through. Nodal forces put such a
 !> load on nodes above and below the cut, whatever part of it acts above
 module axijoint_analysis_core_cut_loads
-   use axijoint_analysis_core_results, only : n_resultants
+   use axijoint_analysis_core_fields, only : n_resultants
    use axijoint_analysis_core_rigid, only : rigid_resultants
    use axijoint_analysis_core_split, only : line_split_type, split_line, area_split_type, &
       split_element

@@ -1,7 +1,6 @@
 !> How the section of a body moves at a cut z = const
 module axijoint_analysis_core_cut_motion
-   use axijoint_analysis_core_results, only : axial, lateral, moment, torque, lateral_90, &
-      moment_90, n_resultants
+   use axijoint_analysis_core_fields, only : axial, lateral, moment, torque, lateral_90, moment_90, n_resultants
    use axijoint_base_kinds, only : wp
    use axijoint_fe_mode, only : mode_type, is_torsion, family_symmetric
    use axijoint_fe_shape, only : shape_element

@@ -2,7 +2,7 @@
 module axijoint_analysis_core_cuts
    use axijoint_analysis_core_cut_loads, only : plane_type, edge_load_excess, spring_excess, &
       joint_excess, mass_excess, resultants_above
-   use axijoint_analysis_core_results, only : results_type, n_resultants
+   use axijoint_analysis_core_fields, only : fields_type, n_resultants
    use axijoint_analysis_core_structure, only : structure_type
    use axijoint_assembly_loading, only : loading_type
    use axijoint_assembly_solid_force, only : solid_force
@@ -38,7 +38,7 @@ contains
       !> State of the joints
       type(joint_field_type), intent(in) :: field
       !> Results; displacements are there already
-      type(results_type), intent(inout) :: results
+      class(fields_type), intent(inout) :: results
 
       type(plane_type), allocatable :: planes(:)
       real(wp), allocatable :: force(:, :, :), shares(:, :, :, :), stress(:, :)

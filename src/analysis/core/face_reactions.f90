@@ -1,6 +1,6 @@
 !> Resultants of the reactions of supported faces
 module axijoint_analysis_core_face_reactions
-   use axijoint_analysis_core_results, only : results_type, n_resultants
+   use axijoint_analysis_core_fields, only : fields_type, n_resultants
    use axijoint_analysis_core_rigid, only : rigid_resultants
    use axijoint_base_kinds, only : wp
    use axijoint_model_model, only : model_type
@@ -16,7 +16,7 @@ contains
       !> The job
       type(model_type), intent(in) :: model
       !> Results with reactions
-      type(results_type), intent(in) :: results
+      class(fields_type), intent(in) :: results
       !> The resultants, shape (n_resultants, faces)
       real(wp) :: resultant(n_resultants, size(model%supported_faces))
 
@@ -32,7 +32,7 @@ contains
       !> The job
       type(model_type), intent(in) :: model
       !> Results
-      type(results_type), intent(in) :: results
+      class(fields_type), intent(in) :: results
       !> The nodes
       integer, intent(in) :: nodes(:)
       !> The resultants

@@ -21,12 +21,12 @@ module axijoint_analysis_core_footprint
    use axijoint_joints_planes, only : planes_type, part_intervals
    use axijoint_model_joint_points, only : model_joint_point_type, stiffest_whole
    use axijoint_model_mesh, only : mesh_type, n_nodes, n_elements, element_references
-   use axijoint_model_model, only : model_type, n_shown, bodies_yield, can_yield, can_yield_at
+   use axijoint_model_model, only : model_type, is_shown, n_shown, shows_stress, bodies_yield, can_yield, can_yield_at
    use axijoint_model_modes, only : used_modes
    use axijoint_plastic_field, only : body_planes
    implicit none
    private
-   public :: footprint_type, data_footprint, fine_nodes, blocks_of, program_bytes, displaced_numbers, waiting_numbers
+   public :: footprint_type, data_footprint, fine_nodes, blocks_of, program_bytes, held_numbers, waiting_numbers
 
    !> What program and libraries without any data take beyond their start once they are used, with what the last of
    !> the heap's large pages is too large [byte]; measured
@@ -60,9 +60,9 @@ module axijoint_analysis_core_footprint
    integer(i8), parameter :: amplitude_arrays = 7, held_vectors = 10, mixed_vectors = 36, &
       learned_vectors = 67
 
-   !> Displacements of earlier increments that are held until they are shown, at most; threads, and joint points, up to which
+   !> Numbers of fields of earlier increments that are held until they are shown, at most; threads, and joint points, up to which
    !> iterations gain less by sharing products than by leaving the other threads to find these
-   integer(i8), parameter :: most_displaced = 4000000
+   integer(i8), parameter :: most_held = 16000000
    integer, parameter :: few_threads = 4, few_points = 300
    !> Numbers that a load leaves while a flexibility is formed, for each node of a line across the mesh
    integer(i8), parameter :: of_lines = 6
@@ -185,7 +185,7 @@ contains
             footprint%joints = footprint%joints + staying_states*kept + acting_cases(model)*(vectors + 3*nodes)
             iterations = iterations + (written_states - staying_states)*kept
             ! with loads and forces of those that are looked for
-            associate (numbers => displaced_numbers(model, n_modes, size(points)))
+            associate (numbers => held_numbers(model, n_modes, size(points)))
                if (numbers > 0) footprint%joints = footprint%joints + numbers + 24*nodes*n_modes
             end associate
             ! loads twice, displacements and what half the elements change of them, where loads turned; joints there, and those that
@@ -214,22 +214,33 @@ contains
       n_pairs = size(pairs%nodes, 2)
    end function n_pairs
 
-   !> Displacements of earlier increments that are held until they are shown, for they are found beside the iterations; none if these
-   !> share products with all threads, or if they are too many
-   integer(i8) function displaced_numbers(model, n_modes, n_points) result(numbers)
+   !> Numbers of the fields of earlier increments that are held until they are shown, for they are found beside the iterations; none
+   !> if these share products with all threads, or if they are too many
+   integer(i8) function held_numbers(model, n_modes, n_points) result(numbers)
       !> The job
       type(model_type), intent(in) :: model
       !> Modes, and joint points that can yield
       integer, intent(in) :: n_modes, n_points
 
-      integer :: n_threads
+      type(reference_type), allocatable :: references(:)
+      integer(i8) :: nodes
+      integer :: i, n_threads
 
       numbers = 0
       n_threads = omp_get_max_threads()
       if (model%error_goal%wanted .or. n_points > few_points .or. n_threads == 1 .or. n_threads > few_threads) return
-      numbers = 3*int(n_nodes(model%mesh), i8)*n_modes*n_shown(model)
-      if (numbers > most_displaced) numbers = 0
-   end function displaced_numbers
+      nodes = n_nodes(model%mesh)
+      ! displacements, reactions, what acts and what is taken; jumps, stresses and states of joints
+      numbers = n_shown(model)*(12*nodes*n_modes + 7*int(n_points, i8)*model%n_planes)
+      associate (n => count([(is_shown(model, i, size(model%increments)) .and. shows_stress(model, i, size(model%increments)), &
+                              i=1, size(model%increments) - 1)]))
+         if (n > 0) then
+            references = element_references(model%mesh)
+            numbers = numbers + n*6*n_modes*(sum(int(references(model%mesh%element_kind)%n_points, i8)) + nodes)
+         end if
+      end associate
+      if (numbers > most_held) numbers = 0
+   end function held_numbers
 
    !> Numbers of the states on the way of the loads that wait for a thread that goes behind with more harmonics, if all do; none if
    !> they are too many: then none waits

@@ -9,7 +9,7 @@ module axijoint_analysis_core_increment_fields
    use axijoint_analysis_core_nodal_stress, only : smooth_stress
    use axijoint_analysis_core_plastic_fields, only : plastic_fields
    use axijoint_analysis_core_recovery, only : recover
-   use axijoint_analysis_core_results, only : results_type, displaced_type, n_resultants
+   use axijoint_analysis_core_fields, only : fields_type, n_resultants
    use axijoint_analysis_core_solution, only : solve_states, solved_state_type
    use axijoint_analysis_core_structure, only : structure_type
    use axijoint_assembly_force, only : joint_jump, elastic_joint_stress
@@ -30,7 +30,7 @@ module axijoint_analysis_core_increment_fields
    implicit none
    private
    public :: elastic_field, field_of_state, recover_fields, move_bodies
-   public :: solve_increments, recover_state, solve_increment
+   public :: solve_increments, is_found, recover_state, solve_increment
    public :: load_plastic_strain, stress_plastic_strain
 
 contains
@@ -110,7 +110,7 @@ contains
       !> State of all joints
       type(joint_field_type), intent(in) :: field
       !> Results; displacements, without rigid motions of floating parts, are there already
-      type(results_type), intent(inout) :: results
+      class(fields_type), intent(inout) :: results
       !> Whether stresses are smoothed to the nodes; true if absent
       logical, intent(in), optional :: smoothed
 
@@ -138,7 +138,7 @@ contains
       !> The state
       type(increment_state_type), intent(in) :: state
       !> Results with displacements
-      type(results_type), intent(inout) :: results
+      class(fields_type), intent(inout) :: results
 
       integer :: c, k
 
@@ -160,17 +160,19 @@ contains
    end subroutine move_bodies
 
    !> Find the fields of an increment again
-   subroutine solve_increment(model, structure, place, final, results, error, smoothed)
+   subroutine solve_increment(model, structure, place, states, angles, fields, error, smoothed)
       !> The job
       type(model_type), intent(in) :: model
       !> The structure; its factors are made again where they are not kept
       type(structure_type), intent(inout) :: structure
       !> Place of the increment among what was kept of all
       integer, intent(in) :: place
-      !> Results at the end of the run, with what was kept of the increments
-      type(results_type), intent(in) :: final
-      !> The fields of the increment; nothing that is about the run
-      type(results_type), intent(out) :: results
+      !> What was kept of all
+      type(increment_state_type), intent(in) :: states(:)
+      !> Planes of the joint results [radian]
+      real(wp), intent(in) :: angles(:)
+      !> The fields of the increment
+      type(fields_type), intent(out) :: fields
       !> Out of memory
       type(error_type), allocatable, intent(out) :: error
       !> Whether stresses are smoothed to the nodes; true if absent
@@ -178,13 +180,14 @@ contains
 
       type(solved_state_type) :: solved(1)
 
-      call solve_increments(model, structure, final%states, [place], solved, error)
-      if (.not. allocated(error)) call recover_state(model, structure, final%states(place), final, solved(1), results, &
-         smoothed)
+      call solve_increments(model, structure, states, [place], solved, error)
+      if (allocated(error)) return
+      call recover_state(model, structure, states(place), angles, solved(1), fields, smoothed)
+      call move_bodies(model, structure, states(place), fields)
    end subroutine solve_increment
 
    !> Find the displacements of increments again: one solution a mode and increment, unless they were found already
-   subroutine solve_increments(model, structure, states, places, solved, error, displaced)
+   subroutine solve_increments(model, structure, states, places, solved, error, earlier)
       !> The job
       type(model_type), intent(in) :: model
       !> The structure; its factors are made again where they are not kept
@@ -197,22 +200,20 @@ contains
       type(solved_state_type), intent(out) :: solved(:)
       !> Out of memory
       type(error_type), allocatable, intent(out) :: error
-      !> Those that were found already
-      type(displaced_type), intent(in), optional :: displaced(:)
+      !> Fields of those that were found already, by number of the increment
+      type(fields_type), intent(in), optional :: earlier(:)
 
-      logical :: is_found(size(places))
-      integer :: first, i, k, last
+      logical :: found(size(places))
+      integer :: first, i, last
 
-      is_found = .false.
       do i = 1, size(places)
          associate (state => states(places(i)))
+            found(i) = is_found(state%increment, earlier)
             call load_plastic_strain(model, structure, state, solved(i)%loading)
-            if (present(displaced)) then
-               k = findloc(displaced%increment, state%increment, 1)
-               is_found(i) = k > 0
-               if (k > 0) solved(i)%displacement = displaced(k)%displacement
+            if (found(i)) then
+               solved(i)%displacement = earlier(state%increment)%displacement
+               cycle
             end if
-            if (is_found(i)) cycle
             allocate (solved(i)%displacement(3, n_nodes(model%mesh), size(structure%modes)))
             ! where no joint yields there is no excess stress
             if (allocated(state%excess)) solved(i)%excess = state%excess
@@ -223,52 +224,61 @@ contains
          first = last + 1
          last = first
          do while (last < size(places))
-            if (is_found(last + 1) .neqv. is_found(first)) exit
+            if (found(last + 1) .neqv. found(first)) exit
             last = last + 1
          end do
-         if (.not. is_found(first)) call solve_states(structure, model, solved(first:last), error)
+         if (.not. found(first)) call solve_states(structure, model, solved(first:last), error)
          if (allocated(error)) return
       end do
    end subroutine solve_increments
 
-   !> Find the fields of an increment from its displacements
-   subroutine recover_state(model, structure, state, final, solved, results, smoothed)
+   !> Whether the fields of an increment were found already
+   pure logical function is_found(increment, earlier)
+      !> The increment
+      integer, intent(in) :: increment
+      !> Fields by number of the increment
+      type(fields_type), intent(in), optional :: earlier(:)
+
+      is_found = .false.
+      if (.not. present(earlier)) return
+      if (increment <= size(earlier)) is_found = allocated(earlier(increment)%displacement)
+   end function is_found
+
+   !> Find the fields of an increment from its displacements, without rigid motions of floating parts (`move_bodies`)
+   subroutine recover_state(model, structure, state, angles, solved, fields, smoothed)
       !> The job
       type(model_type), intent(in) :: model
       !> The structure
       type(structure_type), intent(in) :: structure
       !> What was kept of the increment
       type(increment_state_type), intent(in) :: state
-      !> Results at the end of the run
-      type(results_type), intent(in) :: final
-      !> The displacements; taken into the results
+      !> Planes of the joint results [radian]
+      real(wp), intent(in) :: angles(:)
+      !> The displacements; taken into the fields
       type(solved_state_type), intent(inout) :: solved
-      !> The fields of the increment; nothing that is about the run
-      type(results_type), intent(out) :: results
+      !> The fields
+      type(fields_type), intent(out) :: fields
       !> Whether stresses are smoothed to the nodes; true if absent
       logical, intent(in), optional :: smoothed
 
       type(loading_type) :: loads
       type(joint_field_type) :: field
 
-      results%modes = final%modes
-      results%plane_angles = final%plane_angles
-      results%converged = .true.
-      call move_alloc(solved%displacement, results%displacement)
-      call field_of_state(model, structure, state, results%plane_angles, results%displacement, &
-         field)
+      fields%modes = structure%modes
+      fields%plane_angles = angles
+      call move_alloc(solved%displacement, fields%displacement)
+      call field_of_state(model, structure, state, angles, fields%displacement, field)
       if (allocated(state%bodies%place)) then
          call stress_plastic_strain(model, state, solved%loading)
          ! what errors are held against
          call new_loading(model, structure%joint_points, structure%support_points, structure%modes, &
                           structure%equations%unit_loads, &
                           combination_type(0, state%peak_factor), loads)
-         call recover_fields(model, structure, solved%loading, loads, field, results, smoothed)
+         call recover_fields(model, structure, solved%loading, loads, field, fields, smoothed)
       else
-         call recover_fields(model, structure, solved%loading, solved%loading, field, results, smoothed)
+         call recover_fields(model, structure, solved%loading, solved%loading, field, fields, smoothed)
       end if
-      results%plastic = plastic_fields(model, results%modes, results%stress, state%bodies)
-      call move_bodies(model, structure, state, results)
+      fields%plastic = plastic_fields(model, fields%modes, fields%stress, state%bodies)
    end subroutine recover_state
 
    !> Loads of a state, with the stress of the plastic strain that its displacements follow from
@@ -322,7 +332,7 @@ contains
       !> Their state
       type(joint_field_type), intent(in) :: field
       !> The results
-      type(results_type), intent(inout) :: results
+      class(fields_type), intent(inout) :: results
 
       integer :: k
 

@@ -1,7 +1,7 @@
 !> Largest pressure and largest shear stress of joints
 module axijoint_analysis_core_joint_peaks
    use, intrinsic :: ieee_arithmetic, only : ieee_is_finite
-   use axijoint_analysis_core_results, only : results_type, peak_type
+   use axijoint_analysis_core_fields, only : fields_type, peak_type
    use axijoint_analysis_core_structure, only : structure_type
    use axijoint_analysis_core_totals, only : largest, measure, of_pressure, of_shear
    use axijoint_base_kinds, only : wp
@@ -20,7 +20,7 @@ contains
       !> State of all joints
       type(joint_field_type), intent(in) :: field
       !> Results with displacements and stresses of joints; takes the peaks
-      type(results_type), intent(inout) :: results
+      class(fields_type), intent(inout) :: results
 
       real(wp), allocatable :: stress(:, :, :)
       integer :: k
@@ -42,7 +42,7 @@ contains
    !> The largest on the planes
    pure function largest_on_planes(results, what) result(peak)
       !> Results
-      type(results_type), intent(in) :: results
+      class(fields_type), intent(in) :: results
       !> One of the `of_` parameters
       integer, intent(in) :: what
       !> Value, joint point, angle

@@ -1,6 +1,6 @@
 !> Resultants of the stress of each joint
 module axijoint_analysis_core_joint_resultants
-   use axijoint_analysis_core_results, only : n_resultants
+   use axijoint_analysis_core_fields, only : n_resultants
    use axijoint_analysis_core_rigid, only : rigid_resultants
    use axijoint_assembly_force, only : joint_force
    use axijoint_element_joint, only : lower_node

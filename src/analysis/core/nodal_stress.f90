@@ -1,6 +1,6 @@
 !> Stresses of the integration points smoothed to the nodes
 module axijoint_analysis_core_nodal_stress
-   use axijoint_analysis_core_results, only : results_type, nodal_stress_type
+   use axijoint_analysis_core_fields, only : fields_type, nodal_stress_type
    use axijoint_assembly_equations, only : equations_type, own_modes, worth_threads
    use axijoint_base_kinds, only : wp, i8
    use axijoint_fe_extrapolation, only : extrapolation_matrix
@@ -26,7 +26,7 @@ contains
       !> Its equations, for the modes of each rank
       type(equations_type), intent(in) :: equations
       !> Results; stresses at the integration points are there already
-      type(results_type), intent(inout) :: results
+      class(fields_type), intent(inout) :: results
 
       real(wp), allocatable :: weight(:), weight_sum(:)
       integer :: element, k, n, own(2)
@@ -59,7 +59,7 @@ contains
       !> The job
       type(model_type), intent(in) :: model
       !> Results
-      type(results_type), intent(in) :: results
+      class(fields_type), intent(in) :: results
       !> Place of the mode
       integer, intent(in) :: k
       !> Weight of each element, and their sum for each value

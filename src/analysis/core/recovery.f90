@@ -1,8 +1,7 @@
 !> Stresses, reactions and equilibrium from the displacements
 module axijoint_analysis_core_recovery
    use omp_lib, only : omp_get_max_threads
-   use axijoint_analysis_core_results, only : results_type, axial, lateral, moment, torque, &
-                                         lateral_90, moment_90, n_resultants
+   use axijoint_analysis_core_fields, only : fields_type, axial, lateral, moment, torque, lateral_90, moment_90, n_resultants
    use axijoint_analysis_core_rigid, only : rigid_resultants
    use axijoint_analysis_core_structure, only : structure_type
    use axijoint_assembly_equations, only : equations_type, on_equations, worth_threads, own_modes
@@ -38,7 +37,7 @@ contains
       !> State of the joints
       type(joint_field_type), intent(in) :: field
       !> Results; displacements are there already
-      type(results_type), intent(inout) :: results
+      class(fields_type), intent(inout) :: results
 
       real(wp), dimension(size(results%modes)) :: unbalanced, scale
       real(wp), dimension(n_resultants, size(results%modes)) :: applied, resultant, reacted
@@ -147,7 +146,7 @@ contains
       !> Loads, for the stress without strain
       type(loading_type), intent(in) :: loading
       !> Results with displacements; take the stresses, and the forces in what solids and springs take
-      type(results_type), intent(inout) :: results
+      class(fields_type), intent(inout) :: results
 
       integer :: k, last, own(2), width
 
@@ -169,7 +168,7 @@ contains
       !> The equations, for the modes of each rank
       type(equations_type), intent(in) :: equations
       !> The fields
-      type(results_type), intent(inout) :: results
+      class(fields_type), intent(inout) :: results
 
       call share(equations, results%reaction, size(results%reaction, kind=i8))
       call share(equations, results%acting, size(results%acting, kind=i8))
@@ -193,7 +192,7 @@ contains
       !> The job
       type(model_type), intent(in) :: model
       !> Results that take elements and positions of the points
-      type(results_type), intent(inout) :: results
+      class(fields_type), intent(inout) :: results
 
       type(reference_type), allocatable :: references(:)
       integer :: element, n, last

@@ -7,7 +7,7 @@ module axijoint_analysis_core_remarks
       source_harmonics
    use axijoint_analysis_core_structure, only : structure_type
    use axijoint_analysis_core_totals, only : largest_displacement, peak_type
-   use axijoint_analysis_fine_walls, only : most_across
+   use axijoint_analysis_fine_walls, only : most_across, longest_seen
    use axijoint_base_kinds, only : wp, degree
    use axijoint_base_text, only : to_text, count_of, name_of
    use axijoint_element_joint_law, only : joint_law_type, opening_reversible, eta, state_stick
@@ -83,6 +83,9 @@ contains
       if (results%bends_unseen .and. allocated(results%budget)) call add(remarks, 'walls of more than '//to_text(most_across)// &
          ' elements across, which are long beside the thickness of the wall: estimates of errors see a part of how these bend; '// &
          'shorter elements, or fewer across, are judged in full')
+      if (results%edges_unseen .and. allocated(results%budget)) call add(remarks, 'walls with elements at their edges longer '// &
+         'than '//to_text(longest_seen)//' times the root of radius times thickness: estimates of errors see next to nothing '// &
+         'of how they bend there; shorter elements at the edges are judged in full')
       pins = pin_text(model, structure, history%loading, field, results)
       if (len(pins) > 0) call add(remarks, pins)
       if (allocated(results%stiffer)) remarks = [remarks, proportion_remarks(model, results)]

@@ -1,8 +1,8 @@
 !> Everything that a run computes and the output reports
 module axijoint_analysis_core_results
    use axijoint_analysis_core_discretization_error, only : discretization_error_type
+   use axijoint_analysis_core_fields, only : fields_type, peak_type
    use axijoint_analysis_core_in_situ, only : in_situ_type
-   use axijoint_analysis_core_plastic_fields, only : plastic_fields_type
    use axijoint_analysis_core_yield_errors, only : yield_errors_type
    use axijoint_analysis_fine_singular_places, only : singular_place_type
    use axijoint_base_kinds, only : wp, i8
@@ -13,37 +13,10 @@ module axijoint_analysis_core_results
    use axijoint_solver_entry, only : solver_entry_type
    implicit none
    private
-   public :: results_type, displaced_type, peak_type, mode_solve_type, ordering_type, remark_type, nodal_stress_type, &
-             error_share_type, round_type, stiffer_type
+   public :: results_type, mode_solve_type, ordering_type, remark_type, error_share_type, round_type, stiffer_type
    public :: source_discretization, source_harmonics, source_planes, source_iteration, &
       source_solver, source_sum, &
              source_names
-   public :: axial, lateral, moment, torque, lateral_90, moment_90, n_resultants
-
-   !> Index of a resultant: force along z
-   integer, parameter :: axial = 1
-   !> Index of a resultant: force along theta = 0
-   integer, parameter :: lateral = 2
-   !> Index of a resultant: moment about the line theta = pi/2 through the
-   !> origin; positive lifts the side theta = 0 towards +z, as the MOMENT load
-   integer, parameter :: moment = 3
-   !> Index of a resultant: moment about z
-   integer, parameter :: torque = 4
-   !> Indices of resultants: force along theta = 90 degrees, and the moment that
-   !> lifts that side
-   integer, parameter :: lateral_90 = 5, moment_90 = 6
-   !> Number of resultants
-   integer, parameter :: n_resultants = 6
-
-   !> An extreme value and where it stands
-   type :: peak_type
-      !> The value; negative if there is none
-      real(wp) :: value = -1.0_wp
-      !> Index of the node or joint point; 0 if there is none
-      integer :: place = 0
-      !> Angle theta [radian]
-      real(wp) :: angle = 0.0_wp
-   end type peak_type
 
    !> How well the equations of one mode were solved
    type :: mode_solve_type
@@ -143,31 +116,10 @@ module axijoint_analysis_core_results
       real(wp) :: displacement_anywhere = 0.0_wp, joint_stress_anywhere = 0.0_wp
    end type stiffer_type
 
-   !> Stresses smoothed to the nodes. A node has a value for each material that it
-   !> touches: stresses jump from one to the other. Joints have nodes of their own
-   !> on both sides
-   type :: nodal_stress_type
-      !> Node and material (indices) of each value, ascending
-      integer, allocatable :: node(:), material(:)
-      !> Value of each node of each element, shape (max_element_nodes, elements);
-      !> zeros beyond
-      integer, allocatable :: value_of(:, :)
-      !> Amplitudes in the order of the stresses at the Gauss points, shape
-      !> (6, values, modes)
-      real(wp), allocatable :: amplitude(:, :, :)
-   end type nodal_stress_type
-
-   !> Displacements at the end of an increment
-   type :: displaced_type
-      !> Increment
-      integer :: increment = 0
-      !> Amplitudes without rigid motions of floating parts, shape (3, nodes, modes)
-      real(wp), allocatable :: displacement(:, :, :)
-   end type displaced_type
-
    !> Results of a run. Amplitudes belong to a mode: u, v ~ cos(m theta),
    !> w ~ sin(m theta) in the symmetric family, ~ sin and -cos in the other.
-   type :: results_type
+   !> Results of a run: the fields at its end, and what is about the run
+   type, extends(fields_type) :: results_type
       !> Whether every increment reached its tolerance
       logical :: converged = .false.
       !> Whether joint stress was accumulated over the iterations, as in the paper
@@ -184,63 +136,22 @@ module axijoint_analysis_core_results
       real(wp) :: reached = 0.0_wp
       !> Number of the load combination; 0 if there is one only
       integer :: combination = 0
-      !> Modes that were solved, ascending
-      type(mode_type), allocatable :: modes(:)
       !> Solver that was used
       type(solver_entry_type) :: solver
       !> Orders of the nodes side by side
       type(ordering_type), allocatable :: orderings(:)
       !> One entry for each mode
       type(mode_solve_type), allocatable :: solves(:)
-      !> Displacement amplitudes u, v, w, shape (3, nodes, modes) [length]
-      real(wp), allocatable :: displacement(:, :, :)
-      !> Generalized reactions of fixed components and springs, shape (3, nodes, modes):
-      !> work over the whole circle on unit amplitudes [force]
-      real(wp), allocatable :: reaction(:, :, :)
-      !> Loads on the nodes and reactions of fixed components, without those of springs: what does
-      !> work, shape (3, nodes, modes) [force]
-      real(wp), allocatable :: acting(:, :, :)
-      !> Nodal forces that solids and springs take, in-situ stress and temperature included, same
-      !> shape [force]
-      real(wp), allocatable :: taken(:, :, :)
-      !> Elastic energy of joints, beyond that of their stress in situ [force length]
-      real(wp) :: joint_energy = 0.0_wp
-      !> Element (index) of each solid Gauss point, ascending
-      integer, allocatable :: point_element(:)
-      !> r and z of each solid Gauss point, shape (2, points)
-      real(wp), allocatable :: point_position(:, :)
-      !> Stress amplitudes at solid Gauss points, shape (6, points, modes), in
-      !> the order r, z, theta, rz (they go with u, v); r-theta, z-theta (with w)
-      real(wp), allocatable :: stress(:, :, :)
-      !> The same smoothed to the nodes
-      type(nodal_stress_type) :: nodal
-      !> Plastic strain and yield margin, if bodies can yield
-      type(plastic_fields_type) :: plastic
       !> Displacements of the step that found no equilibrium, counted from the last that did, shape
       !> (3, nodes, modes) [length], and its load factor; not allocated if none failed
       real(wp), allocatable :: failing(:, :, :)
       real(wp) :: tried = 0.0_wp
-      !> Angles of the planes of the joint results [radian]
-      real(wp), allocatable :: plane_angles(:)
-      !> Joint (index) of each joint point, ascending
-      integer, allocatable :: joint_point_joint(:)
-      !> r and z of each joint point, shape (2, joint points)
-      real(wp), allocatable :: joint_point_position(:, :)
-      !> Relative displacement xi, eta, theta, shape (3, joint points, planes) [length]
-      real(wp), allocatable :: joint_jump(:, :, :)
-      !> Its amplitudes, from those of the displacements, shape (3, joint points, modes) [length]
-      real(wp), allocatable :: joint_amplitude(:, :, :)
-      !> Joint stress tau_xi, sigma, tau_theta, shape (3, joint points, planes)
-      real(wp), allocatable :: joint_stress(:, :, :)
-      !> Stick, slip or open, shape (joint points, planes); `state_` parameters
-      integer, allocatable :: joint_state(:, :)
-      !> Largest pressure and largest shear stress of joints: on the planes of joints that open or slip; if there are none,
-      !> anywhere round the circle
-      type(peak_type) :: pressure, shear
       !> States at the ends of the increments, the last one being that of these results
       type(increment_state_type), allocatable :: states(:)
-      !> Displacements of those before the last that were found beside the iterations
-      type(displaced_type), allocatable :: displaced(:)
+      !> Fields at the ends of increments before the last, as far as they were found beside the iterations: those whose
+      !> displacements are allocated. These are without rigid motions of floating parts, and what hangs on them is not there;
+      !> shape (increments), or not allocated
+      type(fields_type), allocatable :: earlier(:)
       !> Convergence path; empty for a linear job
       type(iteration_type), allocatable :: path(:)
       !> Motions that nothing resists and no load acts on, in words
@@ -267,13 +178,12 @@ module axijoint_analysis_core_results
       logical :: soft_in_part = .false.
       !> Whether elements lock, as finer ones do: estimates see little of what that leaves
       logical :: locks = .false.
-      !> Whether there are walls of so many elements across that estimates see their bending in part
-      logical :: bends_unseen = .false.
+      !> Whether there are walls of so many elements across that estimates see their bending in part, or with so long ones at their
+      !> edges that these see nothing of how they bend there
+      logical :: bends_unseen = .false., edges_unseen = .false.
       !> Error of displacements or joint stresses that the iterations leave, where it is more than
       !> the tolerance claims; zero if it is not
       real(wp) :: unsettled = 0.0_wp
-      !> Residual-force ratio at the end (Eq. 17), from the whole structure
-      real(wp) :: residual_ratio = 0.0_wp
       !> Forces of the joint stress that belongs to the bodies' relative displacements but not to
       !> those that the laws saw, over the loads: rounding of very stiff joints
       real(wp) :: mismatch = 0.0_wp
@@ -284,28 +194,6 @@ module axijoint_analysis_core_results
       integer(i8) :: exchanged(2) = 0
       !> Time that the increments of joints took, part of the phase of joints [second]
       real(wp) :: increment_seconds = 0.0_wp
-      !> Resultants of the applied loads and of the reactions
-      real(wp) :: applied(n_resultants) = 0.0_wp, reacted(n_resultants) = 0.0_wp
-      !> Resultants of the stresses on the cuts of the deck, shape (n_resultants, cuts): of
-      !> the part above a cut on the part below, moments about r = 0 at the cut
-      real(wp), allocatable :: cut_resultants(:, :)
-      !> Motions of the sections there, rotations with the signs of the moments, same shape [length,
-      !> radian]
-      real(wp), allocatable :: cut_motion(:, :)
-      !> Resultants of what the body at side 4-3 of each joint exerts on that at side 1-2, moments
-      !> about r = 0 at the middle of its height, shape (n_resultants, joints)
-      real(wp), allocatable :: joint_resultants(:, :)
-      !> Resultants of the reactions of each supported face, shape (n_resultants, faces)
-      real(wp), allocatable :: face_reactions(:, :)
-      !> A node of each part of the mesh that solid elements hold together
-      integer, allocatable :: part_node(:)
-      !> Resultants of the forces on each part that nothing balances, shape (n_resultants, parts)
-      real(wp), allocatable :: part_unbalance(:, :)
-      !> Largest sum of applied and reacted resultants, over those of the loads
-      real(wp) :: equilibrium_error = 0.0_wp
-      !> Largest unbalance of a part, over the resultants of the loads. Joint
-      !> forces out of balance cancel in the whole, but not on the parts
-      real(wp) :: part_error = 0.0_wp
       !> How far in-situ stress is out of balance with weight, supports and joints
       type(in_situ_type) :: in_situ
       !> Errors that iteration, planes and harmonics leave in joints that yield
@@ -320,6 +208,10 @@ module axijoint_analysis_core_results
       type(discretization_error_type) :: discretization
       !> Where stresses are infinite
       type(singular_place_type), allocatable :: singular(:)
+      !> Largest pressure at the edges of joints, beyond their last points, and its node
+      type(peak_type) :: edge_pressure
+      !> Whether the stress of joint points is judged, which are not near to one of these; shape (joint points), or not allocated
+      logical, allocatable :: judged(:)
       !> Rounds of refinement; allocated if the job has a target
       type(round_type), allocatable :: rounds(:)
       !> That and why they did not meet the target, in words; not allocated if they met it
@@ -343,7 +235,7 @@ contains
       class(results_type), intent(in) :: self
 
       hides_errors = self%keeps_slip .or. self%turns_slip .or. self%soft_in_part .or. self%locks &
-         .or. self%bends_unseen
+         .or. self%bends_unseen .or. self%edges_unseen
    end function hides_errors
 
 end module axijoint_analysis_core_results

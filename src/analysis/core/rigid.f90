@@ -1,8 +1,6 @@
 !> Resultants of nodal forces
 module axijoint_analysis_core_rigid
-   use axijoint_analysis_core_results, only : axial, lateral, moment, torque, lateral_90, &
-      moment_90, &
-                                         n_resultants
+   use axijoint_analysis_core_fields, only : axial, lateral, moment, torque, lateral_90, moment_90, n_resultants
    use axijoint_base_kinds, only : wp
    use axijoint_fe_mode, only : mode_type, is_torsion, family_symmetric
    implicit none

@@ -3,7 +3,8 @@ module axijoint_analysis_core_series
    use axijoint_analysis_core_joint_work, only : in_situ_shift, sliding_work
    use axijoint_analysis_core_named_points, only : at_points
    use axijoint_analysis_core_plastic_fields, only : plastic_fields_type, plastic_work
-   use axijoint_analysis_core_results, only : results_type, n_resultants
+   use axijoint_analysis_core_fields, only : fields_type, n_resultants
+   use axijoint_analysis_core_results, only : results_type
    use axijoint_analysis_core_structure, only : structure_type
    use axijoint_analysis_core_totals, only : largest_vector
    use axijoint_assembly_force, only : joint_force
@@ -96,7 +97,7 @@ contains
       !> Place of the increment among the states
       integer, intent(in) :: place
       !> Fields of the increment
-      type(results_type), intent(in) :: now
+      class(fields_type), intent(in) :: now
       !> The series
       type(series_type), intent(inout) :: series
 
@@ -176,7 +177,7 @@ contains
       !> Factors of the load cases
       real(wp), intent(in) :: case_factor(:)
       !> Fields of the increment
-      type(results_type), intent(in) :: now
+      class(fields_type), intent(in) :: now
       !> Both [force length]
       real(wp) :: work(2)
 

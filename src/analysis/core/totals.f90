@@ -1,7 +1,8 @@
 !> Sums of harmonics at an angle, and the extreme values of a run
 module axijoint_analysis_core_totals
    use, intrinsic :: ieee_arithmetic, only : ieee_is_finite
-   use axijoint_analysis_core_results, only : results_type, peak_type
+   use axijoint_analysis_core_fields, only : peak_type
+   use axijoint_analysis_core_results, only : results_type
    use axijoint_base_kinds, only : wp, pi
    use axijoint_fe_mode, only : mode_type, meridional, circumferential, family_symmetric
    implicit none

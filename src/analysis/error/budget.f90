@@ -124,7 +124,7 @@ contains
       integer :: k, p
 
       share%source = source_harmonics
-      share%remedy = 'harmonics: M = '//to_text(max(1, nint(1.4142*model%max_harmonic)))// &
+      share%remedy = 'harmonics: M = '//to_text(max(model%max_harmonic + 1, nint(1.4142*model%max_harmonic)))// &
          ' in CONTROL'
       if (size(model%harmonics) <= model%max_harmonic) share%remedy = 'harmonics: more of them in HARMONICS'
       share%displacement = 0.0_wp

@@ -2,7 +2,8 @@
 module axijoint_analysis_error_discretization
    use omp_lib, only : omp_get_wtime
    use axijoint_analysis_core_named_points, only : largest_error_at_points
-   use axijoint_analysis_core_results, only : results_type, peak_type
+   use axijoint_analysis_core_fields, only : peak_type
+   use axijoint_analysis_core_results, only : results_type
    use axijoint_analysis_core_structure, only : structure_type
    use axijoint_analysis_core_totals, only : largest, largest_vector, of_component
    use axijoint_analysis_error_largest_stress, only : largest_elastic_stress

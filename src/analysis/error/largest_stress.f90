@@ -1,6 +1,6 @@
 !> The largest stress of elastic joints
 module axijoint_analysis_error_largest_stress
-   use axijoint_analysis_core_results, only : peak_type
+   use axijoint_analysis_core_fields, only : peak_type
    use axijoint_analysis_core_totals, only : largest, of_component
    use axijoint_assembly_force, only : elastic_joint_stress
    use axijoint_base_kinds, only : wp

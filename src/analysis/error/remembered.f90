@@ -1,7 +1,7 @@
 !> What the mesh left wrong under loads that acted before: in what joints that slipped then, and hold now, remember
 module axijoint_analysis_error_remembered
+   use axijoint_analysis_core_fields, only : fields_type
    use axijoint_analysis_core_increment_fields, only : solve_increments
-   use axijoint_analysis_core_results, only : displaced_type
    use axijoint_analysis_core_solution, only : solved_state_type
    use axijoint_analysis_core_structure, only : structure_type
    use axijoint_analysis_error_follower, only : follower_type, pass_state, end_way
@@ -31,15 +31,15 @@ module axijoint_analysis_error_remembered
 contains
 
    !> Look back on the way that loads took: where they turned, and displacements there
-   subroutine look_back(model, structure, history, displaced, way)
+   subroutine look_back(model, structure, history, earlier, way)
       !> The job
       type(model_type), intent(in) :: model
       !> The structure
       type(structure_type), intent(inout) :: structure
       !> What the increments came to
       type(history_type), intent(in) :: history
-      !> Displacements at their ends that are known
-      type(displaced_type), intent(in), optional :: displaced(:)
+      !> Fields at their ends that are known
+      type(fields_type), intent(in), optional :: earlier(:)
       !> Takes the way
       type(solved_way_type), intent(inout) :: way
 
@@ -47,19 +47,19 @@ contains
       if (any(history%scene%laws%opening == opening_bond .or. history%scene%laws%softens)) return
       way%places = turning_places(history)
       if (size(way%places) > most_turns .or. size(history%states) > most_increments) return
-      call load_turns(model, structure, history, displaced, way)
+      call load_turns(model, structure, history, earlier, way)
    end subroutine look_back
 
    !> Find loads where they turn, and what they do
-   subroutine load_turns(model, structure, history, displaced, way)
+   subroutine load_turns(model, structure, history, earlier, way)
       !> The job
       type(model_type), intent(in) :: model
       !> The structure
       type(structure_type), intent(inout) :: structure
       !> What the increments came to
       type(history_type), intent(in) :: history
-      !> Displacements at their ends that are known
-      type(displaced_type), intent(in), optional :: displaced(:)
+      !> Fields at their ends that are known
+      type(fields_type), intent(in), optional :: earlier(:)
       !> The way; takes loads and displacements, and whether they were found
       type(solved_way_type), intent(inout) :: way
 
@@ -68,7 +68,7 @@ contains
 
       n = size(way%places)
       allocate (way%solved(n), way%turns(n + 1))
-      call solve_increments(model, structure, history%states, way%places, way%solved, error, displaced)
+      call solve_increments(model, structure, history%states, way%places, way%solved, error, earlier)
       way%known = .not. allocated(error)
       if (.not. way%known) return
       do i = 1, n

@@ -2,8 +2,9 @@
 !> harmonics and the mesh, each by a state found again without it
 module axijoint_analysis_error_yielding_errors
    use omp_lib, only : omp_get_max_threads, omp_get_num_threads, omp_get_wtime
+   use axijoint_analysis_core_fields, only : fields_type
    use axijoint_analysis_core_path, only : keeps_slip, slide_together
-   use axijoint_analysis_core_results, only : results_type, displaced_type
+   use axijoint_analysis_core_results, only : results_type
    use axijoint_analysis_core_structure, only : structure_type
    use axijoint_analysis_core_totals, only : largest_vector
    use axijoint_analysis_error_excess_effect, only : find_effects
@@ -71,7 +72,7 @@ contains
       largest = largest_vector(results%modes, displacement)
       displacement = results%displacement + left%effect(:, :, :, 1)
       results%keeps_slip = keeps_slip(structure, history, largest)
-      call find_other_changes(model, structure, history, results%displaced, left%balanced, displacement, &
+      call find_other_changes(model, structure, history, results%earlier, left%balanced, displacement, &
          results%keeps_slip .or. unloaded(history), changes, others, mesh_error, rests)
       results%follows_slip = mesh_error%follows_slip
       results%follows_all_slip = results%follows_slip .and. changes%follow_slip
@@ -121,7 +122,7 @@ contains
 
    !> What planes, harmonics and the mesh leave. What joints answer to these is found at once where threads have little to share in
    !> each and all factors are at hand; and each factor is read once for what that does to the displacements
-   subroutine find_other_changes(model, structure, history, displaced, balanced, displacement, lasts, changes, effect, mesh_error, &
+   subroutine find_other_changes(model, structure, history, earlier, balanced, displacement, lasts, changes, effect, mesh_error, &
       rests)
       !> The job
       type(model_type), intent(in) :: model
@@ -129,8 +130,8 @@ contains
       type(structure_type), intent(inout) :: structure
       !> What the increments came to
       type(history_type), intent(in), target :: history
-      !> Displacements at the ends of earlier increments that are known
-      type(displaced_type), intent(in), optional :: displaced(:)
+      !> Fields at the ends of earlier increments that are known
+      type(fields_type), intent(in), optional :: earlier(:)
       !> State of the joints, balanced
       type(joint_field_type), intent(in), target :: balanced
       !> Displacement amplitudes of that state, shape (3, nodes, modes)
@@ -158,7 +159,7 @@ contains
 
       seconds = omp_get_wtime()
       allocate (way%stations(0))
-      if (lasts) call look_back(model, structure, history, displaced, way)
+      if (lasts) call look_back(model, structure, history, earlier, way)
       search = new_search(history%scene)
       rounding = least_changes(structure, history)
       at_once = are_for_one_thread(structure%condensed, size(balanced%jump)) .and. are_at_hand(structure%equations)

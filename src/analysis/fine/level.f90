@@ -59,8 +59,8 @@ module axijoint_analysis_fine_level
       type(parents_type) :: parents
       !> Which components are free in each class of modes
       type(conditions_type), allocatable :: conditions(:)
-      !> Whether there are walls whose bending it sees in part
-      logical :: bends_unseen = .false.
+      !> Whether there are walls whose bending it sees in part, or at whose edges it sees none
+      logical :: bends_unseen = .false., edges_unseen = .false.
       !> Blocks of nodes
       type(block_groups_type) :: blocks
       !> Time that all this took, over the threads that worked at once [second]
@@ -95,6 +95,7 @@ contains
       call place_joint_points(model, level)
       walls = find_walls(model%mesh)
       level%bends_unseen = walls%bends_unseen
+      level%edges_unseen = walls%edges_unseen
       block = new_blocks(model%mesh, level%mesh, walls%across > 0.0_wp)
       graph = graph_of_blocks(level%model%mesh, block)
       call order_by_blocks(model%mesh, level%mesh, graph, block, order)

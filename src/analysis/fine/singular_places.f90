@@ -6,7 +6,7 @@ module axijoint_analysis_fine_singular_places
    use axijoint_base_kinds, only : wp, pi
    use axijoint_element_wedge, only : wedge_exponent
    use axijoint_fe_shape, only : n_corners
-   use axijoint_model_joint_points, only : least_moduli
+   use axijoint_model_joint_sides, only : elements_beside, moduli_beside
    use axijoint_model_mesh, only : mesh_type, n_nodes, n_elements, n_joints
    use axijoint_model_model, only : model_type, can_yield_at
    implicit none
@@ -15,7 +15,7 @@ module axijoint_analysis_fine_singular_places
 
    !> Stresses that grow more slowly than this are not called infinite
    real(wp), parameter :: slow = -0.05_wp
-   !> Joint stresses are judged farther from such a place than this part of the joints' length
+   !> Joint stresses are judged farther from such a place than this part of the joints' length, and than the radius there
    real(wp), parameter :: reach = 0.1_wp
    !> Joints at least as stiff beside the bodies, k/E times that distance, hold them together as
    !> seen from there: their stress grows as if they were bonded, until as near as E/k
@@ -87,7 +87,8 @@ contains
       end do
       do node = 1, n_nodes(model%mesh)
          if (.not. exponent(node) < slow) cycle
-         distance = merge(reach*joints%length(node), 0.0_wp, hold_together(joints, node))
+         distance = 0.0_wp
+         if (hold_together(joints, node)) distance = min(reach*joints%length(node), model%mesh%coordinates(1, node))
          places = [places, singular_place_type(node, exponent(node), distance)]
       end do
    end function find_singular_places
@@ -285,7 +286,7 @@ contains
       joints%together = line
       allocate (joints%holds(size(line)), source=.false.)
       allocate (joints%stiffness(size(line)), joints%length(size(line)), source=0.0_wp)
-      associate (mesh => model%mesh, modulus => least_moduli(model), n => n_joints(model%mesh))
+      associate (mesh => model%mesh, modulus => moduli_beside(model, elements_beside(model%mesh)), n => n_joints(model%mesh))
          call unite(reshape(mesh%joint_nodes(:4, :), [4, n]), line)
          call unite(reshape(mesh%joint_nodes([1, 4, 2, 3], :), [2, 2*n]), joints%together)
          do k = 1, n
@@ -299,7 +300,7 @@ contains
                do i = 1, 2
                   associate (stiffness => joints%stiffness(joints%together(nodes(i))))
                      stiffness = max(stiffness, &
-                        maxval(law%stiffness)/minval(modulus(nodes([i, 5 - i]))))
+                        maxval(law%stiffness/modulus(:, k)))
                   end associate
                end do
             end associate

@@ -7,7 +7,7 @@ module axijoint_analysis_fine_walls
    use axijoint_model_neighbours, only : neighbours_type, new_neighbours, element_at_edge
    implicit none
    private
-   public :: walls_type, find_walls, long_sides, is_slender, most_across
+   public :: walls_type, find_walls, long_sides, is_slender, most_across, longest_seen
 
    !> An element longer than this times its width is strongly coupled to its neighbours across its
    !> long sides
@@ -17,6 +17,11 @@ module axijoint_analysis_fine_walls
    !> moves its neighbours. With lines across it alone estimates were up to 4 times too small from 1.2 sqrt(r t) on at
    !> t = r/300, 10 times from 0.6 on at r/3000: from 20 t on, with triangles from 15 t on
    real(wp), parameter :: bending = 2.0_wp, long_beside_wall = 10.0_wp
+   !> Elements of a wall longer than this times sqrt(r t) see next to nothing of how it bends at its edges, and those half as long
+   !> no more: at rims that are bent errors were up to 1.5 times their estimates at 6, 2 to 3 at 8, 13 to 40 at 20
+   real(wp), parameter :: longest_seen = 6.0_wp
+   !> A wall as thick as more than this part of its radius bends as a whole, not round its circle
+   real(wp), parameter :: shell = 0.5_wp
    !> Elements from one surface of such a wall to the other at most, of which two triangles are one: more make its block wide
    integer, parameter :: most_across = 4
 
@@ -25,8 +30,9 @@ module axijoint_analysis_fine_walls
       !> Elements from one surface to the other, of which two triangles are one, of each wall that is solved as a whole; zero for
       !> elements that are in none. Shape (elements)
       real(wp), allocatable :: across(:)
-      !> Whether there are walls that have more across: what bends them is seen in part
-      logical :: bends_unseen = .false.
+      !> Whether there are walls that have more across: what bends them is seen in part; and whether there are walls with elements
+      !> at their edges so long that these see nothing of how the edges bend
+      logical :: bends_unseen = .false., edges_unseen = .false.
    end type walls_type
 
 contains
@@ -42,7 +48,7 @@ contains
       type(neighbours_type) :: neighbours
       integer, dimension(n_elements(mesh)) :: root, surfaces, halves
       real(wp), dimension(n_elements(mesh)) :: thickness, length, radius
-      logical :: long(4, n_elements(mesh)), wall, bends(n_elements(mesh))
+      logical :: long(4, n_elements(mesh)), wall(n_elements(mesh)), bends(n_elements(mesh))
       integer :: k, side, i, other
 
       allocate (walls%across(n_elements(mesh)), source=0.0_wp)
@@ -84,16 +90,60 @@ contains
       end do
       do k = 1, size(root)
          i = root(k)
-         wall = surfaces(i) == 2 .and. length(i) > slender*thickness(i)
-         bends(k) = wall .and. length(i) > longest_free(radius(i), thickness(i))
+         wall(k) = surfaces(i) == 2 .and. length(i) > slender*thickness(i)
+         bends(k) = wall(k) .and. length(i) > longest_free(radius(i), thickness(i))
          walls%bends_unseen = walls%bends_unseen .or. (bends(k) .and. halves(i) > 2*most_across)
-         if (wall .and. halves(i) <= 2*most_across) walls%across(k) = 0.5_wp*halves(i)
+         if (wall(k) .and. halves(i) <= 2*most_across) walls%across(k) = 0.5_wp*halves(i)
+      end do
+      do k = 1, size(root)
+         i = root(k)
+         if (.not. wall(k) .or. walls%edges_unseen .or. thickness(i) > shell*radius(i)) cycle
+         if (steepness(mesh, k)*length(i)**2 > longest_seen**2*radius(i)*thickness(i)) walls%edges_unseen = is_at_edge(k)
       end do
       do i = 1, maxval(mesh%element_body)
          if (.not. any(bends .and. walls%across > 0.0_wp .and. mesh%element_body == i)) &
             where (mesh%element_body == i) walls%across = 0.0_wp
       end do
+
+   contains
+
+      !> Whether an element is the last of its wall
+      pure logical function is_at_edge(k)
+         !> The element
+         integer, intent(in) :: k
+
+         integer :: beyond, side
+
+         is_at_edge = .false.
+         associate (nodes => mesh%element_nodes(:, k), corners => n_corners(mesh%element_size(k)))
+            do side = 1, corners
+               if (long(side, k)) cycle
+               beyond = element_at_edge(mesh, neighbours, nodes(side), nodes(mod(side, corners) + 1), k)
+               if (beyond == 0) is_at_edge = .true.
+               if (beyond > 0) is_at_edge = is_at_edge .or. .not. wall(beyond)
+            end do
+         end associate
+      end function is_at_edge
+
    end function find_walls
+
+   !> Rise of a wall over its length: the radius that it bends by is that of its circle over this. None of a plate
+   pure real(wp) function steepness(mesh, element)
+      !> The mesh
+      type(mesh_type), intent(in) :: mesh
+      !> An element of the wall
+      integer, intent(in) :: element
+
+      real(wp) :: along(2)
+      integer :: n, side
+
+      n = n_corners(mesh%element_size(element))
+      associate (x => mesh%coordinates(:, mesh%element_nodes(:n, element)), sides => side_lengths(mesh, element))
+         side = maxloc(sides(:n), 1)
+         along = x(:, mod(side, n) + 1) - x(:, side)
+         steepness = abs(along(2))/norm2(along)
+      end associate
+   end function steepness
 
    !> Length of the elements of a wall from which on they couple it along itself
    pure real(wp) function longest_free(radius, thickness)

@@ -2,9 +2,10 @@
 module axijoint_analysis_fine_whole_model
    use axijoint_analysis_fine_mesh, only : fine_mesh_type, new_fine_mesh, n_on
    use axijoint_analysis_fine_model, only : new_fine_model
+   use axijoint_fe_mode, only : mode_type
    use axijoint_model_load, only : prescribed_type
    use axijoint_model_mesh, only : n_nodes
-   use axijoint_model_model, only : model_type
+   use axijoint_model_model, only : model_type, held_at
    implicit none
    private
    public :: new_whole_model
@@ -38,7 +39,7 @@ contains
       do k = 1, size(finer%restraints)
          finer%restraints(k)%held = on_fine(fine, model%restraints(k)%held)
       end do
-      finer%prescribed = moved_on_fine(fine, model%prescribed, finer%fixed)
+      finer%prescribed = moved_on_fine(fine, model%prescribed, finer)
    end subroutine new_whole_model
 
    !> Components that are held on the fine mesh: of a new node on an edge, if all nodes of the edge
@@ -68,13 +69,13 @@ contains
 
    !> Displacements that are given on the fine mesh: at a new node that is held, by those that it
    !> follows
-   function moved_on_fine(fine, coarse, held) result(moved)
+   function moved_on_fine(fine, coarse, finer) result(moved)
       !> The fine mesh
       type(fine_mesh_type), intent(in) :: fine
       !> The displacements on the coarse one
       type(prescribed_type), intent(in) :: coarse(:)
-      !> Whether components of the fine mesh are held, shape (3, nodes)
-      logical, intent(in) :: held(:, :)
+      !> The job on it, for the components that are held
+      type(model_type), intent(in) :: finer
       !> The displacements; those of a component add up
       type(prescribed_type), allocatable :: moved(:)
 
@@ -90,12 +91,12 @@ contains
       allocate (more(0))
       do pass = 1, 2  ! count, then fill
          n = 0
-         do node = 1, size(held, 2)
+         do node = 1, n_nodes(fine%mesh)
             if (fine%parents%start(node + 1) == fine%parents%start(node) + 1) cycle  ! a coarse one
             do k = fine%parents%start(node), fine%parents%start(node + 1) - 1
                p = first(fine%parents%node(k))
                do while (p > 0)
-                  if (held(coarse(p)%component, node)) then
+                  if (is_held(finer, coarse(p)%mode, node, coarse(p)%component)) then
                      n = n + 1
                      if (pass == 2) then
                         more(n) = coarse(p)
@@ -114,5 +115,20 @@ contains
       end do
       moved = [coarse, more]
    end function moved_on_fine
+
+   !> Whether a component of a node is held in a mode
+   pure logical function is_held(model, mode, node, component)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> The mode
+      type(mode_type), intent(in) :: mode
+      !> Node and component
+      integer, intent(in) :: node, component
+
+      logical :: held(3)
+
+      held = held_at(model, mode, node)
+      is_held = held(component)
+   end function is_held
 
 end module axijoint_analysis_fine_whole_model

@@ -72,8 +72,9 @@ contains
                           limits='0 ≤ ψ ≤ φ'), &
                 described(real_field('the hardening', 46, from=0.0_wp, default=0.0_wp, &
                                      symbol="H'"), &
-                          "hardening H': what the strength gains by a plastic strain of one "// &
-                          '[stress]', limits="H' ≥ 0"), &
+                          "hardening H' [stress]: what the strength gains by a uniaxial plastic strain of one, TRESCA and "// &
+                          "MISES; of MOHR the cohesion gains 2 cos φ/(1 − sin ψ) H' by one in axial compression", &
+                          limits="H' ≥ 0"), &
                 described(real_field('the tension', 56, from=0.0_wp, default=0.0_wp, &
                                      symbol='tension'), &
                           'tension that is borne at most [stress]: of TRESCA and MOHR the '// &

@@ -1,6 +1,6 @@
 !> Displacements and stresses at points of lines
 module axijoint_output_file_line_values
-   use axijoint_analysis_core_results, only : results_type
+   use axijoint_analysis_core_fields, only : fields_type
    use axijoint_analysis_core_totals, only : circle_type, new_circle, total_displacement, total_stress
    use axijoint_base_kinds, only : wp
    use axijoint_fe_shape, only : shape_element
@@ -19,7 +19,7 @@ contains
       !> The job
       type(model_type), intent(in) :: model
       !> Results
-      type(results_type), intent(in) :: results
+      class(fields_type), intent(in) :: results
       !> The line
       type(line_type), intent(in) :: line
       !> theta [radian]
@@ -51,7 +51,7 @@ contains
       !> The job
       type(model_type), intent(in) :: model
       !> Results
-      type(results_type), intent(in) :: results
+      class(fields_type), intent(in) :: results
       !> The line
       type(line_type), intent(in) :: line
       !> theta [radian]
@@ -82,7 +82,7 @@ contains
       !> The job
       type(model_type), intent(in) :: model
       !> Results
-      type(results_type), intent(in) :: results
+      class(fields_type), intent(in) :: results
       !> The line
       type(line_type), intent(in) :: line
       !> The displacements, shape (3, points, angles)
@@ -100,7 +100,7 @@ contains
       !> The job
       type(model_type), intent(in) :: model
       !> Results
-      type(results_type), intent(in) :: results
+      class(fields_type), intent(in) :: results
       !> The line
       type(line_type), intent(in) :: line
       !> The stresses, shape (6, points, angles)

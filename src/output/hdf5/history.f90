@@ -1,6 +1,7 @@
 !> What is kept of every increment in the results file: the group /history
 module axijoint_output_hdf5_history
    use, intrinsic :: iso_fortran_env, only : int8
+   use axijoint_analysis_core_fields, only : fields_type
    use axijoint_analysis_core_results, only : results_type
    use axijoint_analysis_core_series, only : series_type
    use axijoint_base_kinds, only : i8
@@ -110,7 +111,7 @@ contains
       !> Place of the increment among the states
       integer, intent(in) :: i
       !> Its fields
-      type(results_type), intent(in) :: now
+      class(fields_type), intent(in) :: now
       !> The datasets
       type(history_fields_type), intent(inout) :: fields
 

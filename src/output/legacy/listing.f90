@@ -2,6 +2,7 @@
 !> Elements in Plasticity, 1980, 7.8): NAME.owen-hinton.lis. The first character of a line is for
 !> the printer
 module axijoint_output_legacy_listing
+   use axijoint_analysis_core_fields, only : fields_type
    use axijoint_analysis_core_results, only : results_type
    use axijoint_base_error, only : error_type
    use axijoint_base_kinds, only : wp
@@ -65,7 +66,7 @@ contains
       !> The increment, a place among the states
       integer, intent(in) :: i
       !> Its fields
-      type(results_type), intent(in) :: now
+      class(fields_type), intent(in) :: now
 
       integer :: amount
 

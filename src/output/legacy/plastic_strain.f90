@@ -1,7 +1,7 @@
 !> The effective plastic strain of the old program: the plastic work over the effective stress of the
 !> criterion, summed over the increments (Owen and Hinton, Finite Elements in Plasticity, 7.2.3)
 module axijoint_output_legacy_plastic_strain
-   use axijoint_analysis_core_results, only : results_type
+   use axijoint_analysis_core_fields, only : fields_type
    use axijoint_base_kinds, only : wp
    use axijoint_element_principal, only : principal_stresses
    use axijoint_element_yield_law, only : yield_law_type, yield_tresca, yield_mises, yield_mohr, &
@@ -19,7 +19,7 @@ contains
       !> The job
       type(model_type), intent(in) :: model
       !> Fields of the increment
-      type(results_type), intent(in) :: now
+      class(fields_type), intent(in) :: now
       !> Plastic strain at the end of the one before, r, z, theta, rz, then that of this one, shape
       !> (4, points)
       real(wp), intent(inout) :: before(:, :)

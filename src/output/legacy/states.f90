@@ -1,5 +1,6 @@
 !> What an old listing shows of an increment: displacements, reactions, stresses at Gauss points
 module axijoint_output_legacy_states
+   use axijoint_analysis_core_fields, only : fields_type
    use axijoint_analysis_core_results, only : results_type
    use axijoint_base_kinds, only : wp
    use axijoint_element_principal, only : plane_principal
@@ -63,7 +64,7 @@ contains
       !> The job
       type(model_type), intent(in) :: model
       !> Fields of the increment
-      type(results_type), intent(in) :: now
+      class(fields_type), intent(in) :: now
 
       integer :: node
 
@@ -82,7 +83,7 @@ contains
       !> The job
       type(model_type), intent(in) :: model
       !> Fields of the increment
-      type(results_type), intent(in) :: now
+      class(fields_type), intent(in) :: now
 
       integer :: node
 
@@ -118,7 +119,7 @@ contains
       !> The job
       type(model_type), intent(in) :: model
       !> Fields of the increment
-      type(results_type), intent(in) :: now
+      class(fields_type), intent(in) :: now
       !> Effective plastic strain, shape (points)
       real(wp), intent(in) :: strain(:)
 

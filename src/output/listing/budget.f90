@@ -284,7 +284,8 @@ contains
             total%joint_stress, in_any_case .or. results%torn)
       end associate
       if (.not. has_singular(results)) return
-      if (any(results%singular%distance > 0.0_wp)) text = text//", away from infinite ones"
+      if (any(results%singular%distance > 0.0_wp)) text = text//", away from infinite ones ("// &
+         to_text(count(results%judged))//" of "//to_text(size(results%judged))//" joint points)"
    end function sum_text
 
    !> A quantity in all, and its largest source

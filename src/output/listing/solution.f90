@@ -1,7 +1,8 @@
 !> Tables of the listing that show equations, convergence, displacements,
 !> reactions and equilibrium
 module axijoint_output_listing_solution
-   use axijoint_analysis_core_results, only : results_type, n_resultants, torque
+   use axijoint_analysis_core_fields, only : n_resultants, torque
+   use axijoint_analysis_core_results, only : results_type
    use axijoint_analysis_core_totals, only : circle_type, new_circle, total_displacement, n_unknowns
    use axijoint_base_kinds, only : wp, degree
    use axijoint_base_system, only : peak_memory_mb

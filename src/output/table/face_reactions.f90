@@ -1,7 +1,8 @@
 !> Reactions of each supported face
 module axijoint_output_table_face_reactions
    use axijoint_analysis_core_face_reactions, only : reactions_of_nodes
-   use axijoint_analysis_core_results, only : results_type, n_resultants
+   use axijoint_analysis_core_fields, only : n_resultants
+   use axijoint_analysis_core_results, only : results_type
    use axijoint_base_kinds, only : wp
    use axijoint_model_model, only : model_type
    use axijoint_output_file_columns, only : columns

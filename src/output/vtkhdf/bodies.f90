@@ -1,5 +1,6 @@
 !> The bodies swept through theta, with displacements and stresses: NAME.vtkhdf
 module axijoint_output_vtkhdf_bodies
+   use axijoint_analysis_core_fields, only : fields_type
    use axijoint_analysis_core_results, only : results_type
    use axijoint_analysis_core_totals, only : new_circle
    use axijoint_base_error, only : error_type
@@ -80,7 +81,7 @@ contains
       !> The file under way
       type(bodies_type), intent(inout) :: bodies
       !> Fields of the step
-      type(results_type), intent(in) :: now
+      class(fields_type), intent(in) :: now
 
       integer :: j
 

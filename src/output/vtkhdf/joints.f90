@@ -7,6 +7,7 @@
 !> linear job have what the harmonics give in the middle of each sector.
 module axijoint_output_vtkhdf_joints
    use axijoint_analysis_core_increment_fields, only : field_of_state
+   use axijoint_analysis_core_fields, only : fields_type
    use axijoint_analysis_core_results, only : results_type
    use axijoint_analysis_core_structure, only : structure_type
    use axijoint_analysis_core_totals, only : circle_type, new_circle, total_displacement
@@ -98,7 +99,7 @@ contains
       !> State of the step
       type(increment_state_type), intent(in) :: state
       !> Fields of the step
-      type(results_type), intent(in) :: now
+      class(fields_type), intent(in) :: now
 
       type(joint_field_type) :: field
 
@@ -192,7 +193,7 @@ contains
    !> Displacements of both sides in a step: points on the axis, then those of each plane
    subroutine put_displacements(now, surfaces)
       !> Fields of the step
-      type(results_type), intent(in) :: now
+      class(fields_type), intent(in) :: now
       !> The file under way
       type(surfaces_type), intent(inout) :: surfaces
 
@@ -213,7 +214,7 @@ contains
    !> Cartesian displacements of some points of a plane
    pure function moved(now, surface, side, angle, some) result(x)
       !> Results of the step
-      type(results_type), intent(in) :: now
+      class(fields_type), intent(in) :: now
       !> The points
       type(surface_type), intent(in) :: surface
       !> 1 for side 1-2, 2 for side 4-3

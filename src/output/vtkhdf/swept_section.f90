@@ -2,7 +2,7 @@
 !> between them, and the sums of the harmonics there
 module axijoint_output_vtkhdf_swept_section
    use, intrinsic :: ieee_arithmetic, only : ieee_is_finite
-   use axijoint_analysis_core_results, only : results_type, nodal_stress_type
+   use axijoint_analysis_core_fields, only : fields_type, nodal_stress_type
    use axijoint_analysis_core_totals, only : circle_type
    use axijoint_base_kinds, only : wp
    use axijoint_element_principal, only : principal_stresses
@@ -48,7 +48,7 @@ contains
       !> The job
       type(model_type), intent(in) :: model
       !> Results, for their points
-      type(results_type), intent(in) :: results
+      class(fields_type), intent(in) :: results
       !> The points
       type(section_type), intent(out) :: section
       !> The mesh
@@ -129,7 +129,7 @@ contains
       !> The points
       type(section_type), intent(in) :: section
       !> Results
-      type(results_type), intent(in) :: results
+      class(fields_type), intent(in) :: results
       !> The angle
       type(circle_type), intent(in) :: circle
       !> The fields

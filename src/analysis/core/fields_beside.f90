@@ -1,9 +1,10 @@
-!> Displacements at the ends of increments, found by a thread beside the iterations: these share too little for more than one
-module axijoint_analysis_core_displaced_ends
+!> Fields at the ends of increments, found by threads beside the iterations: these share too little for more than one
+module axijoint_analysis_core_fields_beside
    use omp_lib, only : omp_get_max_threads, omp_set_num_threads
-   use axijoint_analysis_core_footprint, only : displaced_numbers
-   use axijoint_analysis_core_increment_fields, only : solve_increments
-   use axijoint_analysis_core_results, only : displaced_type, results_type
+   use axijoint_analysis_core_fields, only : fields_type
+   use axijoint_analysis_core_footprint, only : held_numbers
+   use axijoint_analysis_core_increment_fields, only : solve_increments, recover_state
+   use axijoint_analysis_core_results, only : results_type
    use axijoint_analysis_core_solution, only : solved_state_type
    use axijoint_analysis_core_structure, only : structure_type
    use axijoint_base_error, only : error_type
@@ -13,10 +14,10 @@ module axijoint_analysis_core_displaced_ends
    use axijoint_joints_keeper, only : keeper_type
    use axijoint_joints_states, only : increment_state_type
    use axijoint_model_load, only : combination_type
-   use axijoint_model_model, only : model_type, is_shown
+   use axijoint_model_model, only : model_type, is_shown, shows_stress
    implicit none
    private
-   public :: run_and_displace
+   public :: run_and_find
 
    !> States whose displacements are found at once, at most
    integer, parameter :: at_once = 4
@@ -26,10 +27,10 @@ module axijoint_analysis_core_displaced_ends
       !> The job, and the structure, whose factors are kept
       type(model_type), pointer :: model => null()
       type(structure_type), pointer :: structure => null()
-      !> What is known of the increments whose displacements are wanted, as far as these are not found: loads and excess stress
+      !> The increments whose fields are wanted, as far as these are not found; number 0 elsewhere
       type(increment_state_type), allocatable :: asked(:)
-      !> The displacements, none yet where they are not allocated
-      type(displaced_type), allocatable :: found(:)
+      !> The fields, none yet where displacements are not allocated
+      type(fields_type), allocatable :: found(:)
       !> Whether a thread is at it
       logical :: busy = .false.
    end type ends_type
@@ -45,8 +46,8 @@ module axijoint_analysis_core_displaced_ends
 
 contains
 
-   !> Run the increments; if threads can, find the displacements at their ends beside that. No bit of either depends on it
-   subroutine run_and_displace(model, structure, combination, history, results, progress, keeper)
+   !> Run the increments; if threads can, find the fields at their ends beside that. No bit of either depends on it
+   subroutine run_and_find(model, structure, combination, history, results, progress, keeper)
       !> The job
       type(model_type), intent(in), target :: model
       !> The structure, factored and condensed
@@ -55,7 +56,7 @@ contains
       type(combination_type), intent(in) :: combination
       !> What the increments came to
       type(history_type), intent(out) :: history
-      !> Takes the displacements, of as many increments as they were found of
+      !> Takes the fields, of as many increments as they were found of
       type(results_type), intent(inout) :: results
       !> Where to show progress
       type(progress_type), intent(inout) :: progress
@@ -64,7 +65,7 @@ contains
 
       type(ends_type), target :: ends
       type(asking_type) :: asking
-      integer :: k, n, n_threads
+      integer :: n_threads
 
       if (.not. beside(model, structure, present(keeper))) then
          call run(keeper)
@@ -83,14 +84,7 @@ contains
       call omp_set_num_threads(n_threads)
       !$omp end master
       !$omp end parallel
-      allocate (results%displaced(count(ends%found%increment > 0)))
-      n = 0
-      do k = 1, size(ends%found)
-         if (ends%found(k)%increment == 0) cycle
-         n = n + 1
-         results%displaced(n)%increment = k
-         call move_alloc(ends%found(k)%displacement, results%displaced(n)%displacement)
-      end do
+      call move_alloc(ends%found, results%earlier)
 
    contains
 
@@ -103,9 +97,9 @@ contains
                              structure%support_points, combination, history, progress, keeper, structure%answer)
       end subroutine run
 
-   end subroutine run_and_displace
+   end subroutine run_and_find
 
-   !> Whether displacements are found beside the iterations: where fields of more increments than the last will be shown, threads and
+   !> Whether fields are found beside the iterations: where those of more increments than the last will be shown, threads and
    !> joint points are few, and this process keeps all factors
    logical function beside(model, structure, shown)
       !> The job
@@ -117,7 +111,7 @@ contains
 
       beside = .false.
       if (.not. shown) return
-      beside = displaced_numbers(model, size(structure%modes), size(structure%condensed%points)) > 0
+      beside = held_numbers(model, size(structure%modes), size(structure%condensed%points)) > 0
       associate (equations => structure%equations)
          beside = beside .and. equations%team%size == 1 .and. equations%solver%concurrent &
             .and. equations%n_kept == size(equations%systems)
@@ -138,7 +132,7 @@ contains
       call self%other%restore(history, restored, error)
    end subroutine restore
 
-   !> A step came to equilibrium. At the end of an increment its displacements are asked for
+   !> A step came to equilibrium. At the end of an increment its fields are asked for
    subroutine keep(self, history)
       !> Who asks
       class(asking_type), intent(inout) :: self
@@ -153,20 +147,16 @@ contains
       k = history%increment
       if (size(history%ahead) > 0 .or. k == size(ends%found)) return
       if (.not. is_shown(ends%model, k, size(ends%found))) return
-      associate (state => history%states(size(history%states)))
-         !$omp critical (axijoint_displaced_ends)
-         ends%asked(k)%case_factor = state%case_factor
-         ends%asked(k)%excess = state%excess
-         ends%asked(k)%increment = k
-         !$omp end critical (axijoint_displaced_ends)
-      end associate
+      !$omp critical (axijoint_fields_beside)
+      ends%asked(k) = history%states(size(history%states))
+      !$omp end critical (axijoint_fields_beside)
       ! for a thread of the team that waits for the end of the increments: no iteration waits for tasks of this one
       !$omp task default(shared) firstprivate(ends)
       call find(ends)
       !$omp end task
    end subroutine keep
 
-   !> Find the displacements that are asked for, unless another thread is at it, which will then take these, too
+   !> Find the fields that are asked for, unless another thread is at it, which will then take these, too
    subroutine find(ends)
       !> The ends
       type(ends_type), intent(inout) :: ends
@@ -176,22 +166,22 @@ contains
       integer :: k
 
       do
-         !$omp critical (axijoint_displaced_ends)
+         !$omp critical (axijoint_fields_beside)
          places = pack([(k, k=1, size(ends%asked))], ends%asked%increment > 0 .and. .not. ends%busy)
          places = places(:min(at_once, size(places)))
          ends%busy = ends%busy .or. size(places) > 0
          states = ends%asked(places)
-         ends%asked(places)%increment = 0
-         !$omp end critical (axijoint_displaced_ends)
+         ends%asked(places) = increment_state_type()
+         !$omp end critical (axijoint_fields_beside)
          if (size(places) == 0) return
          call find_states(ends, states)
-         !$omp critical (axijoint_displaced_ends)
+         !$omp critical (axijoint_fields_beside)
          ends%busy = .false.
-         !$omp end critical (axijoint_displaced_ends)
+         !$omp end critical (axijoint_fields_beside)
       end do
    end subroutine find
 
-   !> Find the displacements of states
+   !> Find the fields of states
    subroutine find_states(ends, states)
       !> The ends
       type(ends_type), intent(inout) :: ends
@@ -206,11 +196,29 @@ contains
       call solve_increments(ends%model, ends%structure, states, [(i, i=1, size(states))], solved, error)
       if (allocated(error)) return  ! who shows them will know
       do i = 1, size(states)
-         associate (found => ends%found(states(i)%increment))
-            found%increment = states(i)%increment
-            call move_alloc(solved(i)%displacement, found%displacement)
-         end associate
+         !$omp task default(shared) firstprivate(i)
+         call recover_end(ends, states(i), solved(i))
+         !$omp end task
       end do
+      !$omp taskwait
    end subroutine find_states
 
-end module axijoint_analysis_core_displaced_ends
+   !> Find the fields of a state from its displacements; what no file shows of them is not held
+   subroutine recover_end(ends, state, solved)
+      !> The ends; take the fields
+      type(ends_type), intent(inout) :: ends
+      !> The state
+      type(increment_state_type), intent(in) :: state
+      !> Its displacements
+      type(solved_state_type), intent(inout) :: solved
+
+      logical :: smoothed
+
+      smoothed = shows_stress(ends%model, state%increment, size(ends%found))
+      associate (fields => ends%found(state%increment))
+         call recover_state(ends%model, ends%structure, state, ends%structure%planes%angle, solved, fields, smoothed)
+         if (.not. smoothed) deallocate (fields%stress, fields%point_element, fields%point_position)
+      end associate
+   end subroutine recover_end
+
+end module axijoint_analysis_core_fields_beside
