@@ -5,7 +5,7 @@ module axijoint_output_brief
    use axijoint_analysis_core_totals, only : largest_displacement, count_states, n_unknowns
    use axijoint_base_kinds, only : wp, degree
    use axijoint_base_system, only : peak_memory_mb
-   use axijoint_base_text, only : to_text
+   use axijoint_base_text, only : to_text, count_of
    use axijoint_base_timer, only : phase_total
    use axijoint_element_joint_law, only : state_stick, state_slip, state_open
    use axijoint_job_job, only : job_type, result_name, deck_name
@@ -45,7 +45,7 @@ contains
          to_text(n_elements(job%model%mesh))//" elements, "// &
          to_text(n_joints(job%model%mesh))//" joints")// &
          line("unknowns", to_text(n_unknowns(results))//" in "// &
-         to_text(size(results%modes))//" harmonics, highest m = "// &
+         modes_text((results%modes%harmonic))//", highest m = "// &
          to_text(maxval(results%modes%harmonic)))
       if (n_joints(job%model%mesh) > 0) text = text//stiffness_lines(job%model, results)
       if (size(results%joint_state) > 0) text = text//joint_lines(job%model, results)
@@ -164,6 +164,20 @@ contains
             text = text//line("ten times as stiff", stiffer_laws_text(model, results%stiffer(i)))
       end do
    end function stiffness_lines
+
+   !> Number of the modes: of one family harmonics, of two more
+   pure function modes_text(harmonic) result(text)
+      !> Their harmonics
+      integer, intent(in) :: harmonic(:)
+      !> Such as '5 harmonics', '9 modes of 5 harmonics'
+      character(len=:), allocatable :: text
+
+      integer :: k, n
+
+      n = count([(all(harmonic(:k - 1) /= harmonic(k)), k=1, size(harmonic))])
+      text = count_of(n, "harmonic")
+      if (n < size(harmonic)) text = count_of(size(harmonic), "mode")//" of "//text
+   end function modes_text
 
    !> States of the joints and the largest pressure
    pure function joint_lines(model, results) result(text)

@@ -750,6 +750,58 @@ def turning_pile(program, folder):
     return faults
 
 
+DRUMS = """TITLE
+Drums of stone, on one another
+CONTROL
+4,
+MATERIALS
+1, 3E4, 0.2, 2.5
+LAWS
+1, 1E6, 1E6, 1E6, , 35.0
+BLOCKS
+1, 1, 8, 3, 2
+0., 0., 0.5, 1.
+2, 1, 8, 3, 2
+0., 1., 0.5, 2.
+3, 1, 8, 3, 2
+0., 2., 0.5, 3.
+FACES
+1, 1, 0., 0., 0.5, 0.
+2, 1, 0., 1., 0.5, 1.
+3, 2, 0., 1., 0.5, 1.
+4, 2, 0., 2., 0.5, 2.
+5, 3, 0., 2., 0.5, 2.
+INTERFACES
+1, 2, 3
+1, 4, 5
+FIXEDFACES
+1, 111
+CASE
+1
+GRAVITY
+-9.81,
+CASE
+2
+GRAVITY
+0., 9.81
+COMBINE
+1, 1, 1., 2, 1.
+INCREMENTS
+1.0, , , 1
+0.4, , , 2
+0.4, , , 2
+END
+"""
+
+
+def drums(program, folder):
+    """Drums rock about the edge of the lowest that bears two, where weight and lateral load meet it: those above tilt as one, and none
+    is said to slide, which friction would not let it"""
+    summary, _ = solved(program, folder, 'drums', DRUMS, 4)
+    return expected('tilt as one', True, any(re.search(r'the parts with nodes \d+ and \d+ tilt as one', line) for line in summary['messages'])) + \
+        expected('the load', True, 1.4 < summary['increments'][-1]['load_factor'] < 1.5)
+
+
 def beside_finer(program, folder, coarse, fine):
     """True error of displacements at theta = 0, by the nodes that two decks have at the same places, and that told"""
     def along(text, name):
@@ -1047,5 +1099,5 @@ def tests(program):
              'least of yielding': least_of_yielding, 'locked': locked, 'torn bonds': torn_bonds, 'nearly incompressible': nearly_incompressible,
              'load beyond M': load_beyond, 'pressed bonds': pressed_bonds, 'slip of larger loads': slip_of_larger_loads,
              'smooth pile': smooth_pile, 'free of stress': stress_free, 'stiff beside soft': stiff_beside_soft,
-             'let go': let_go, 'stiff in part': stiff_in_part, 'free beside joints': free_beside_joints, 'idle parts': idle_parts, 'turning pile': turning_pile}
+             'let go': let_go, 'stiff in part': stiff_in_part, 'free beside joints': free_beside_joints, 'idle parts': idle_parts, 'drums': drums, 'turning pile': turning_pile}
     return [Test(f'estimates: {name}', lambda folder, function=function: function(program, folder)) for name, function in named.items()]

@@ -11,6 +11,11 @@ module axijoint_analysis_core_motion
 
    !> Rigid motions below this share of the largest displacement are none
    real(wp), parameter :: rigid_share = 0.1_wp
+   !> Parts move as one body where they are no farther from doing so than this share
+   real(wp), parameter :: alike = 0.1_wp
+
+   !> Name of a motion
+   character(len=*), parameter :: tilting = 'tilts'
 
    !> A rigid motion of a part
    type :: motion_type
@@ -23,7 +28,7 @@ module axijoint_analysis_core_motion
 
 contains
 
-   !> Which part moves most, and how
+   !> Which part moves most, and how; or which parts, where some tilt as one: what is far from where they do slides by itself
    function motion_text(mesh, modes, displacement) result(text)
       !> The mesh
       type(mesh_type), intent(in) :: mesh
@@ -35,6 +40,7 @@ contains
       character(len=:), allocatable :: text
 
       type(motion_type) :: largest
+      logical, allocatable :: moves(:)
       integer, allocatable :: part(:), nodes(:)
       integer :: p, k, place(3)
 
@@ -46,6 +52,19 @@ contains
                largest)
          end do
       end do
+      if (largest%size > rigid_share*maxval(abs(displacement)) .and. modes(max(1, largest%mode))%harmonic == 1) then
+         moves = moves_with(mesh%coordinates, part, displacement(:, :, largest%mode), largest)
+         if (count(moves) > 1) then
+            nodes = pack([(k, k=1, size(part))], moves(part))
+            k = largest%mode
+            largest = motion_type()
+            call compare(0, k, mesh%coordinates(:, nodes), modes(k), displacement(:, nodes, k), largest)
+            text = 'the parts with nodes '//nodes_of(mesh, part, moves)//' '// &
+               trim(merge('tilt          ', 'slide sideways', largest%name == tilting))//' as one (harmonic '// &
+               mode_name(modes(k))//')'
+            return
+         end if
+      end if
       place = maxloc(abs(displacement))
       if (largest%size > rigid_share*maxval(abs(displacement))) then
          place(2) = findloc(part, largest%part, 1)
@@ -56,6 +75,61 @@ contains
       text = 'the part with node '//to_text(mesh%node_label(place(2)))//' '//trim(largest%name)// &
          ' (harmonic '//mode_name(modes(place(3)))//')'
    end function motion_text
+
+   !> Parts that move with the one that moves most as one body does, sideways and tilting
+   function moves_with(x, part, displacement, largest) result(moves)
+      !> r and z of the nodes, shape (2, nodes), and their parts
+      real(wp), intent(in) :: x(:, :)
+      integer, intent(in) :: part(:)
+      !> Displacement amplitudes of a mode of harmonic 1, shape (3, nodes)
+      real(wp), intent(in) :: displacement(:, :)
+      !> The largest motion
+      type(motion_type), intent(in) :: largest
+      !> Shape (parts)
+      logical, allocatable :: moves(:)
+
+      real(wp), dimension(maxval(part)) :: middle, along, turn, reach
+      integer, allocatable :: nodes(:)
+      integer :: k, p
+
+      do p = 1, size(middle)
+         nodes = pack([(k, k=1, size(part))], part == p)
+         associate (r => x(1, nodes), z => x(2, nodes), u => displacement(:, nodes))
+            middle(p) = sum(z)/size(nodes)
+            along(p) = sum(u(1, :) - u(3, :))/(2*size(nodes))
+            turn(p) = sum(r*u(2, :) - (z - middle(p))*(u(1, :) - u(3, :)))/max(tiny(1.0_wp), sum(r**2 + 2.0_wp*(z - middle(p))**2))
+            reach(p) = maxval(hypot(r, z - middle(p)))
+         end associate
+      end do
+      associate (q => largest%part, most => alike*largest%size)
+         moves = abs(turn - turn(q))*reach <= most .and. abs(along - (along(q) - turn(q)*(middle - middle(q)))) <= most &
+            .and. abs(turn)*reach > most
+         moves(q) = .true.
+      end associate
+   end function moves_with
+
+   !> A node of each of some parts, in words
+   pure function nodes_of(mesh, part, chosen) result(text)
+      !> The mesh
+      type(mesh_type), intent(in) :: mesh
+      !> Parts of the nodes, and which of them
+      integer, intent(in) :: part(:)
+      logical, intent(in) :: chosen(:)
+      !> Such as '5, 17 and 23'
+      character(len=:), allocatable :: text
+
+      integer :: p, left
+
+      text = ''
+      left = count(chosen)
+      do p = 1, size(chosen)
+         if (.not. chosen(p)) cycle
+         text = text//to_text(mesh%node_label(findloc(part, p, 1)))
+         left = left - 1
+         if (left > 1) text = text//', '
+         if (left == 1) text = text//' and '
+      end do
+   end function nodes_of
 
    !> Keep the largest of the rigid motions of a part in a mode: those that fit its
    !> displacements best, tilting about its middle
@@ -82,7 +156,7 @@ contains
             call keep('moves along z', sum(v)/size(r))
          else if (mode%harmonic == 1) then
             call keep('slides sideways', sum(u - w)/(2*size(r)))
-            call keep('tilts', maxval(hypot(r, z))*ratio_of(sum(r*v - z*(u - w)), &
+            call keep(tilting, maxval(hypot(r, z))*ratio_of(sum(r*v - z*(u - w)), &
                sum(r**2 + 2.0_wp*z**2)))
          end if
       end associate
