@@ -103,10 +103,11 @@ contains
       type(history_type) :: history
       type(mesh_error_type) :: mesh_error
       real(wp) :: yielding_stress, elastic_displacement
-      logical :: wanted, estimates
+      logical :: wanted, estimates, shown
 
       wanted = .true.
       if (present(estimated)) wanted = estimated
+      shown = wanted .or. present(keeper)  ! no row of a study
       estimates = wanted .and. .not. bodies_yield(model)  ! none that holds with plastic strain
       results%modes = structure%modes
       results%orderings = structure%orderings
@@ -138,8 +139,8 @@ contains
 
       call timer%push(phase_recover)
       call recover_fields(model, structure, history%loading, history%peak, field, results, &
-         smoothed=wanted)
-      if (wanted) results%edge_pressure = pressure_at_edges(model%mesh, structure, field, results)
+         smoothed=shown)
+      if (shown) results%edge_pressure = pressure_at_edges(model%mesh, structure, field, results)
       associate (state => results%states(size(results%states)))
          results%plastic = plastic_fields(model, results%modes, results%stress, &
             state%bodies)

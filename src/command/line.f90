@@ -293,6 +293,8 @@ contains
       select case (option)
       case ('--vtk')
          command%options%swept = .true.
+      case ('--no-estimates')
+         command%options%estimated = .false.
       case ('--estimates')
          command%estimates = .true.
       case ('--slurm')

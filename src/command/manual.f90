@@ -82,6 +82,7 @@ contains
                       'program prints it (harmonic 0, no joints)', takes_word, 'owen-hinton'), &
           option_type('--vtk', '', 'NAME.vtkhdf for ParaView, too (whole circle; SWEEP of the '// &
                       'deck says more)'), &
+          option_type('--no-estimates', '', 'no estimates of errors: faster, where many cases are alike and one was judged'), &
           option_type('--resume', '', 'go on from NAME.state, which a run that was stopped or '// &
                       'died left beside its results; a deck whose results are complete is left'), &
           option_type('--checkpoint', 'MINUTES', 'keep NAME.state up to date every so many '// &

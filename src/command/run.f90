@@ -164,6 +164,9 @@ contains
       exit_code = exit_ok
       beside = ''
       call begin(deck, command, job, error)
+      if (.not. allocated(error) .and. job%model%error_goal%wanted .and. .not. job%options%estimated) &
+         call fatal_error(error, exit_deck, 'ERROR of the deck asks for a bound of errors, which --no-estimates leaves out'// &
+                          new_line('a')//'mend: leave out one of them')
       if (.not. allocated(error)) call check_results(job, command%decks, error)
       call check_stop(error)
       if (.not. allocated(error) .and. speaks(command)) then

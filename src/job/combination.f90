@@ -27,7 +27,7 @@ contains
       if (allocated(error)) return
       if (.not. allocated(job%structure)) then
          allocate (job%structure)
-         call build_structure(job%model, job%structure, job%timer, job%progress, error)
+         call build_structure(job%model, job%structure, job%timer, job%progress, error, job%options%estimated, listed=.true.)
          if (allocated(error)) then
             deallocate (job%structure)
             return
@@ -35,7 +35,7 @@ contains
       end if
       job%checkpoint%at = k
       call analyse_combination(job%model, job%structure, job%model%combinations(k), results, &
-         job%timer, job%progress, error, keeper=job%checkpoint)
+         job%timer, job%progress, error, job%options%estimated, job%checkpoint)
       results%combination = combination_label(job, k)
    end subroutine solve_combination
 

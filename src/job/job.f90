@@ -31,6 +31,8 @@ module axijoint_job_job
       integer(i8) :: memory_limit = no_limit
       !> Whether the bodies are to be swept through theta, whatever the deck says
       logical :: swept = .false.
+      !> Whether errors are estimated
+      logical :: estimated = .true.
       !> Whether a listing in an old layout is wanted, too
       logical :: old_listing = .false.
       !> Processes that share the work; this one alone if there is none

@@ -56,12 +56,13 @@ contains
       if (len(singular_text(job%model, results)) > 0) then
          text = text//line("infinite stresses", singular_text(job%model, results))
       end if
+      if (.not. job%options%estimated) text = text//line("error estimates", "none, as --no-estimates asks")
       if (allocated(results%budget)) then
          text = text//line("error estimates", sum_text(results))
          if (len(remedy_text(results%budget)) > 0) &
             text = text//line("about half with", remedy_text(results%budget))
       end if
-      if (allocated(results%yield_errors)) &
+      if (allocated(results%yield_errors) .and. job%options%estimated) &
          text = text//line("error estimates", yield_errors_text(results%yield_errors))
       text = text//remark_lines(results)// &
          line("time, peak memory", seconds_text(job%timer%seconds(phase_total))//" s, "// &

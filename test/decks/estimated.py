@@ -1,11 +1,12 @@
 """Estimates of errors where they are hard to come by: joints that reach the axis, harmonics with gaps between them, loads of which M
 leaves all but rigid motion out; and what is said of motions that nothing resists"""
+import json
 import math
 import os
 import re
 
 from hard_decks import close, solved
-from support import Test, expected, read_text, write
+from support import INPUTS, Test, expected, read_text, write
 
 # A disc on soil, pressed and pushed sideways, with a joint that reaches the axis
 FOOTING = """TITLE
@@ -1092,6 +1093,24 @@ def stiff_in_part(program, folder):
     return faults
 
 
+def left_out(program, folder):
+    """Estimates that are not wanted are not made, and nothing else changes; an error that the deck asks for cannot be left out"""
+    faults = []
+    for name, text in (*((name, read_text(os.path.join(INPUTS, f'{name}.dat'))) for name in ('first', 'continuum')), ('drums', DRUMS)):
+        deck, code = write(folder, f'{name}.dat', text), 4 if name == 'drums' else 0
+        found = []
+        for options in ((), ('--no-estimates',)):
+            ran = program.run('run', deck, '-o', folder, *options)
+            summary, lines = json.loads(read_text(os.path.join(folder, f'{name}.json'))), read_text(os.path.join(folder, f'{name}.lis')).splitlines()
+            faults += ran.ended_with(code) + expected(f'{name} {options}: said', bool(options), '--no-estimates' in ran.out)
+            faults += expected(f'{name} {options}: errors', code == 0 and not options, summary['errors'] is not None)
+            begin = next(k for k, line in enumerate(lines) if line.startswith('DISPLACEMENT'))
+            found.append((summary['increments'], lines[begin:begin + 40]))
+        faults += expected(f'{name}: results', found[0], found[1])
+    ran = program.run('run', write(folder, 'goal.dat', read_text(os.path.join(INPUTS, 'first.dat')).replace('CONTROL', 'ERROR\n5.0,DISPL\nCONTROL')), '-o', folder, '--no-estimates')
+    return faults + ran.ended_with(2) + expected('words', True, 'ERROR of the deck' in ran.err)
+
+
 def tests(program):
     """The tests of this module"""
     named = {'joint that reaches the axis': reaches_axis, 'gaps between harmonics': gaps, 'patch of rigid motion': rigid_patch,
@@ -1099,5 +1118,5 @@ def tests(program):
              'least of yielding': least_of_yielding, 'locked': locked, 'torn bonds': torn_bonds, 'nearly incompressible': nearly_incompressible,
              'load beyond M': load_beyond, 'pressed bonds': pressed_bonds, 'slip of larger loads': slip_of_larger_loads,
              'smooth pile': smooth_pile, 'free of stress': stress_free, 'stiff beside soft': stiff_beside_soft,
-             'let go': let_go, 'stiff in part': stiff_in_part, 'free beside joints': free_beside_joints, 'idle parts': idle_parts, 'drums': drums, 'turning pile': turning_pile}
+             'let go': let_go, 'stiff in part': stiff_in_part, 'free beside joints': free_beside_joints, 'idle parts': idle_parts, 'drums': drums, 'left out': left_out, 'turning pile': turning_pile}
     return [Test(f'estimates: {name}', lambda folder, function=function: function(program, folder)) for name, function in named.items()]

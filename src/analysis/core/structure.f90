@@ -83,7 +83,7 @@ contains
 
    !> Assemble and factor the equations of all modes. Ranks of a team wait for each other if factors are kept; otherwise
    !> an error of one is told to the others where they agree next
-   subroutine build_structure(model, structure, timer, progress, error, estimated)
+   subroutine build_structure(model, structure, timer, progress, error, estimated, listed)
       !> The job
       type(model_type), intent(in) :: model
       !> The structure
@@ -96,8 +96,11 @@ contains
       type(error_type), allocatable, intent(out) :: error
       !> Whether errors will be estimated, which takes the fine level; true if absent
       logical, intent(in), optional :: estimated
+      !> Whether a listing will show it; as errors are estimated if absent
+      logical, intent(in), optional :: listed
 
       call expect_estimates(model, structure, estimated)
+      if (present(listed)) structure%listed = listed
       call timer%push(phase_assemble)
       call plan_levels(model, structure, progress, error)
       if (.not. allocated(error)) call assemble_equations(structure%equations, model, structure%joint_points, &
