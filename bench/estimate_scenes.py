@@ -173,6 +173,16 @@ def jacks(setting):
     return scene.add("PRESSURES", "8, 0, 1.5", "3, , 1, , , 1", "3, , 1, , , 2").text()
 
 
+def lining(setting, k=1e3):
+    """A lining in ground that presses it unequally round the circle"""
+    scene = Scene("Lining", setting).add("MATERIALS", "1, 3e4, 0.2", "2, 200, 0.3").law(1, k, 0.0, 20.0, RESULTANT)
+    scene.block(1, 1, 2, 1, (2.7, 0, 3, .5)).block(2, 2, 12, 1, (3, 0, 20, .5))
+    scene.add("FACES", "1, 1, 3, 0, 3, .5", "2, 2, 3, 0, 3, .5", "3, 2, 20, 0, 20, .5", "4, 1, 2.7, 0, 3, 0", "5, 1, 2.7, .5, 3, .5",
+              "6, 2, 3, 0, 20, 0", "7, 2, 3, .5, 20, .5").add("INTERFACES", "1, 1, 2")
+    scene.add("FIXEDFACES", *(f"{face}, 010" for face in (4, 5, 6, 7)))
+    return scene.add("TRACTIONS", "3, 0, -1.0, 0, 0", "3, 2, 0.6, 0, -0.6").text()
+
+
 def raft(setting):
     """A raft on ground under its weight, and a column on a part of it"""
     scene = Scene("Raft", setting).add("MATERIALS", "1, 3e4, 0.2", "2, 50, 0.3").law(1, 200, 0.0, 30.0, RESULTANT)

@@ -142,6 +142,10 @@ def harmonic_rows():
         for m in (4, 8):
             setting = Setting(kind, harmonic=m, planes=12*m + 1)
             yield Row("harmonics", f"{name}, M = {m}", scene, setting, replace(setting, harmonic=min(24, 4*m)), options)
+    for k in (1e3, 1e4):
+        for m in (2, 6, 12):
+            setting = Setting("8", harmonic=m, planes=49)
+            yield Row("harmonics", f"lining, k = {k:g}, M = {m}", scenes.lining, setting, replace(setting, harmonic=24), {"k": k})
 
 
 def load_rows():
