@@ -39,7 +39,7 @@ contains
                     limits='0 ≤ ν < 0.5 (negative ratios are not accepted)'), &
           described(real_field('the density', 26, from=0.0_wp, default=0.0_wp, symbol='density'), &
                     'density [mass/volume]'), &
-          described(real_field('the expansion', 36, default=0.0_wp), &
+          described(real_field('the thermal expansion', 36, default=0.0_wp), &
                     'thermal expansion [1/temperature]')]
    end function materials_section
 
