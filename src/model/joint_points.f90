@@ -117,7 +117,7 @@ contains
 
       can_yield = material%law%kind /= law_elastic
       point%stiffness = material%law%stiffness
-      if (can_yield) point%stiffness = min(point%stiffness, material%rigid*min(beside, huge(1.0_wp)/material%rigid))
+      if (can_yield) point%stiffness = min(point%stiffness, material%rigid*beside)
       point%proportion = maxval(point%stiffness)*flexibility
       point%base = point%stiffness
       if (can_yield .and. point%proportion > stiffest_whole) &

@@ -15,6 +15,7 @@ module axijoint_output_brief
    use axijoint_output_file_names, only : endings, files_of, file_arrays, file_listing, file_summary
    use axijoint_output_file_pending, only : join_path
    use axijoint_output_listing_budget, only : sum_text, remedy_text, singular_text
+   use axijoint_output_table_joint_edge, only : edge_text
    use axijoint_output_table_joint_proportion, only : proportions_text, stiffer_laws_text
    use axijoint_output_table_yield_errors, only : yield_errors_text
    implicit none
@@ -202,37 +203,8 @@ contains
             text = text//line("largest pressure", "none, no joint is pressed")
          end if
       end associate
-      text = text//edge_line(model, results)
+      if (len(edge_text(model, results)) > 0) text = text//line("at an edge of joints", edge_text(model, results))
    end function joint_lines
-
-   !> Pressure at an edge of joints, where it is more than at any point and not infinite
-   pure function edge_line(model, results) result(text)
-      !> The job
-      type(model_type), intent(in) :: model
-      !> Results
-      type(results_type), intent(in) :: results
-      !> A line; empty if there is nothing to tell
-      character(len=:), allocatable :: text
-
-      !> Pressure at an edge over the largest of points, at least; nodes nearer than this part of the radius are at one place
-      real(wp), parameter :: much_more = 1.02_wp, near = 1.0e-9_wp
-      real(wp) :: digit
-      integer :: k
-
-      text = ""
-      associate (edge => results%edge_pressure, x => model%mesh%coordinates)
-         if (.not. edge%value > much_more*max(0.0_wp, results%pressure%value)) return
-         if (allocated(results%singular)) then
-            do k = 1, size(results%singular)
-               if (norm2(x(:, results%singular(k)%node) - x(:, edge%place)) <= near*x(1, edge%place)) return
-            end do
-         end if
-         digit = 10.0_wp**(floor(log10(edge%value)) - 2)
-         text = line("at an edge of joints", "about "//to_text(digit*anint(edge%value/digit))//" at r = "// &
-            to_text(x(1, edge%place))//", z = "//to_text(x(2, edge%place))//", theta = "//to_text(edge%angle/degree)// &
-            " degrees, by a line through the points before it")
-      end associate
-   end function edge_line
 
    !> The largest displacement
    pure function displacement_line(model, results) result(text)

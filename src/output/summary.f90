@@ -25,6 +25,7 @@ module axijoint_output_summary
    use axijoint_output_table_in_situ, only : in_situ_json
    use axijoint_output_table_increments, only : increments_json
    use axijoint_output_table_interfaces, only : interfaces_json
+   use axijoint_output_table_joint_edge, only : edge_json
    use axijoint_output_table_joint_proportion, only : proportions_json
    use axijoint_output_table_modes, only : modes_json, truncations_json
    use axijoint_output_table_residuals, only : residuals_json
@@ -84,6 +85,7 @@ contains
             call put_pair(file, "other_loop_difference", "null")
          end if
          call put_pair(file, "joint_states", states_text(results))
+         call put_pair(file, "edge_pressure", edge_json(model, results))
          call put_pair(file, "interfaces", interfaces_json(model))
          call put_pair(file, "joint_stiffness", proportions_json(model, results))
          call put_pair(file, "equilibrium_error", json_number(results%equilibrium_error))

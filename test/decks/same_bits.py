@@ -114,6 +114,8 @@ def tests(program):
         return Test(f'same bits: {name}', check)
 
     fine = example(3, nodes=8, harmonic=6, planes=25)
+    history = read_text(os.path.join(INPUTS, 'monopile.dat'))
+    without_sections = history[:history.index('SECTIONS')] + 'END\n'
     return [Test('same bits: circumstances', lambda folder: other_circumstances(program, folder))] + [
         moved(f'moved memory, {solver}', fine, '--solver', solver) for solver in ('band', 'skyline', 'sparse')] + [
         moved('moved memory, many harmonics', example(3, harmonic=24, planes=97)),
@@ -121,5 +123,7 @@ def tests(program):
         moved('moved memory, Anderson', example(3, factor=10.0, method='ANDERSON', tolerance=1e-6)),
         moved('moved memory, joints out of proportion', example(3, factor=5e-3, harmonic=4, planes=17)),
         moved('moved memory, combinations', 'chimney.dat'),
-        moved('moved memory, a history', 'monopile.dat'),  # displacements are found beside the iterations
+        # fields are found beside the iterations, with stresses where sections show these, and without
+        moved('moved memory, a history', 'monopile.dat'),
+        moved('moved memory, a history without sections', without_sections),
         moved('moved memory, two harmonics', TWO_HARMONICS)]

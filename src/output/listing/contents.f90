@@ -10,7 +10,7 @@ module axijoint_output_listing_contents
    use axijoint_model_model, only : model_type
    use axijoint_model_request, only : print_deck
    use axijoint_output_file_echo, only : write_echo
-   use axijoint_output_file_headings, only : write_lines, rule, mark_not_converged
+   use axijoint_output_file_headings, only : write_heading, write_lines, rule, mark_not_converged
    use axijoint_output_file_run, only : run_type
    use axijoint_output_file_text, only : text_file_type
    use axijoint_output_listing_budget, only : write_left_out, write_budget, write_singular, &
@@ -33,6 +33,7 @@ module axijoint_output_listing_contents
    use axijoint_output_table_face_reactions, only : write_face_reactions
    use axijoint_output_table_in_situ, only : write_in_situ
    use axijoint_output_table_increments, only : write_increment_table
+   use axijoint_output_table_joint_edge, only : write_edge
    use axijoint_output_table_joint_proportion, only : write_proportions
    use axijoint_output_table_residuals, only : write_residuals
    use axijoint_output_table_strips, only : write_strips
@@ -96,14 +97,19 @@ contains
          call write_stresses(file, model, results)
          call write_nodal_stresses(file, model, results)
          call write_joint_results(file, model, results)
+         call write_edge(file, model, results)
          call write_sections(file, model, results)
          call write_cuts(file, model, results)
          call write_named_points(file, model, results, series)
          call write_reactions(file, model, results)
          call write_face_reactions(file, model, results)
          call write_equilibrium(file, model, results)
-         call write_budget(file, model, results)
-         call write_yield_errors(file, results)
+         if (job%options%estimated) then
+            call write_budget(file, model, results)
+            call write_yield_errors(file, results)
+         else
+            call write_heading(file, "ERRORS ARE NOT ESTIMATED (--no-estimates)")
+         end if
          call write_singular(file, model, results)
          call write_rounds(file, results)
          call write_strips(file, model, results)
