@@ -61,8 +61,14 @@ def cartesian_stress(total, theta):
                      c*s*(rr - tt) + (c*c - s*s)*rt, s*rz + c*zt, c*rz - s*zt], -1)
 
 
-def principal_stresses(total):
-    """Principal stresses of cylindrical components (..., 6), greatest first: (..., 3)."""
+def principal_stresses(total, *, cartesian=False):
+    """Principal stresses of six components (..., 6), greatest first: (..., 3).
+
+    cartesian: whether these are xx, yy, zz, xy, yz, xz, as `stress(..., cartesian=True)` gives them, in place of r, z, theta, rz,
+        r-theta, z-theta.
+    """
     rr, zz, tt, rz, rt, zt = np.moveaxis(np.asarray(total, float), -1, 0)
+    if cartesian:  # x, y, z stand for r, z, theta: of these xz comes last
+        rt, zt = zt, rt
     tensor = np.stack([np.stack(row, -1) for row in ((rr, rz, rt), (rz, zz, zt), (rt, zt, tt))], -2)
     return np.linalg.eigvalsh(tensor)[..., ::-1]

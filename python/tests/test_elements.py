@@ -64,10 +64,12 @@ class Elements(unittest.TestCase):
     def test_cartesian_stress_has_the_same_principal_stresses(self):
         random = np.random.default_rng(3)
         stress, theta = random.normal(size=(20, 6)), random.uniform(0, 360, 20)
-        xx, yy, zz, xy, yz, xz = circle.cartesian_stress(stress, theta).T
+        turned = circle.cartesian_stress(stress, theta)
+        xx, yy, zz, xy, yz, xz = turned.T
         same = np.stack([xx, zz, yy, xz, xy, yz], -1)  # x, y, z in the order of r, theta, z
-        np.testing.assert_allclose(circle.principal_stresses(same), circle.principal_stresses(stress),
-                                   atol=1e-12)
+        principal = circle.principal_stresses(stress)
+        np.testing.assert_allclose(circle.principal_stresses(same), principal, atol=1e-12)
+        np.testing.assert_allclose(circle.principal_stresses(turned, cartesian=True), principal, atol=1e-12)
 
 
 if __name__ == "__main__":

@@ -5,7 +5,7 @@ module axijoint_base_text
    implicit none
    private
    public :: to_text, utf8_length, put_integer, percent_text, fine_percent, lower, upper, count_of, edit_distance, nearest_word, &
-      did_you_mean, name_of
+      did_you_mean, name_of, list_of
 
    !> A number as text without blanks
    interface to_text
@@ -174,6 +174,25 @@ contains
       text = text//'s'
       if (noun(len(noun):) == 'y') text = text(:len(text) - 2)//'ies'
    end function count_of
+
+   !> Numbers with commas between them, the first few if there are more
+   pure function list_of(numbers, most) result(text)
+      !> The numbers, and how many are named
+      integer, intent(in) :: numbers(:), most
+      !> The list
+      character(len=:), allocatable :: text
+
+      character(len=:), allocatable :: number
+      integer :: k
+
+      text = ''
+      do k = 1, min(size(numbers), most)
+         call put_integer(int(numbers(k), i8), number)
+         if (k > 1) text = text//', '
+         text = text//number
+      end do
+      if (size(numbers) > most) text = text//', ...'
+   end function list_of
 
    !> Fewest insertions, deletions, replacements and exchanges of neighbours
    !> that turn one word into another (optimal string alignment)

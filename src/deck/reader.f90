@@ -34,6 +34,7 @@ module axijoint_deck_reader
    use axijoint_deck_section_error, only : refine_sections, asks_for_strips
    use axijoint_deck_section_faces, only : lay_faces
    use axijoint_deck_section_groups, only : keyword_groups
+   use axijoint_deck_section_harmonics, only : warn_of_left_out
    use axijoint_deck_section_increments, only : refer_increments, warn_of_idle_cases, &
       check_control
    use axijoint_deck_section_interfaces, only : lay_interfaces
@@ -341,6 +342,7 @@ contains
       call warn_of_lacking_loads(deck)
       call take_moves(deck)
       call take_loads(deck%loads, deck%model)
+      call warn_of_left_out(deck)
    end subroutine make_loads
 
    !> Find the places where results are wanted, if all elements are sound

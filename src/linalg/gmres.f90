@@ -2,10 +2,13 @@
 !> 1986) for an operator known by its products
 module axijoint_linalg_gmres
    use axijoint_base_kinds, only : wp
-   use axijoint_linalg_lapack, only : daxpy, ddot
+   use axijoint_linalg_lapack, only : ddot, dgemv
    implicit none
    private
    public :: operator_type, gmres
+
+   !> Vectors of the basis that another is made orthogonal to together: as many as stay at hand between the two products
+   integer, parameter :: together = 16
 
    !> A linear operator
    type, abstract :: operator_type
@@ -13,11 +16,6 @@ module axijoint_linalg_gmres
       !> Its product with a vector
       procedure(apply_interface), deferred :: apply
    end type operator_type
-
-   !> A vector of the basis, or a column of the small triangle
-   type :: vector_type
-      real(wp), allocatable :: values(:)
-   end type vector_type
 
    abstract interface
       !> Product with a vector
@@ -51,7 +49,7 @@ contains
       !> |b - a x| / |b| reached
       real(wp), intent(out) :: reduction
 
-      type(vector_type) :: basis(most + 1), h(most)
+      real(wp), allocatable :: basis(:, :), h(:, :)  ! the basis, and the small triangle
       real(wp) :: cosine(most), sine(most), g(most + 1), size_b, t
       integer :: j, i
 
@@ -62,13 +60,13 @@ contains
       if (.not. size_b > 0.0_wp) return
       g = 0.0_wp
       g(1) = size_b
-      basis(1)%values = b/size_b
+      allocate (basis(size(b), most + 1), h(most + 1, most))
+      basis(:, 1) = b/size_b
       do j = 1, most
-         allocate (basis(j + 1)%values(size(b)), h(j)%values(j + 1))
-         call a%apply(basis(j)%values, basis(j + 1)%values)
+         call a%apply(basis(:, j), basis(:, j + 1))
          n_products = j
-         call orthogonalize(basis(:j), basis(j + 1)%values, h(j)%values)
-         associate (column => h(j)%values)
+         call orthogonalize(basis(:, :j), basis(:, j + 1), h(:j + 1, j))
+         associate (column => h(:j + 1, j))
             do i = 1, j - 1  ! the rotations so far
                t = cosine(i)*column(i) + sine(i)*column(i + 1)
                column(i + 1) = cosine(i)*column(i + 1) - sine(i)*column(i)
@@ -89,37 +87,39 @@ contains
          if (reduction <= tolerance) exit
       end do
       do j = n_products, 1, -1  ! back-substitution
-         g(j) = g(j)/h(j)%values(j)
-         g(:j - 1) = g(:j - 1) - g(j)*h(j)%values(:j - 1)
-         call daxpy(size(x), g(j), basis(j)%values, 1, x, 1)
+         g(j) = g(j)/h(j, j)
+         g(:j - 1) = g(:j - 1) - g(j)*h(:j - 1, j)
       end do
+      if (n_products > 0) call dgemv('N', size(x), n_products, 1.0_wp, basis, size(x), g, 1, 0.0_wp, x, 1)
    end subroutine gmres
 
-   !> Make a vector orthogonal to a basis, one vector after the other, and of length one. What rounding leaves of them
+   !> Make a vector orthogonal to a basis, a few vectors of it after others, and of length one. What rounding leaves of them
    !> does the solution no harm (Paige, Rozloznik and Strakos, SIAM J. Matrix Anal. Appl. 28, 2006) unless the operator
    !> is next to singular: so once is enough where that leaves enough of the vector, else it is done twice
    subroutine orthogonalize(basis, v, h)
       !> The basis
-      type(vector_type), intent(in) :: basis(:)
+      real(wp), intent(in), contiguous :: basis(:, :)
       !> The vector
       real(wp), intent(inout), contiguous :: v(:)
       !> Its components along the basis, and its length
-      real(wp), intent(out) :: h(:)
+      real(wp), intent(out), contiguous :: h(:)
 
       !> The square of what is left, over that before, that is enough
       real(wp), parameter :: enough = 0.1_wp
-      real(wp) :: before, left, part
-      integer :: i, pass
+      real(wp) :: before, left, parts(together)
+      integer :: first, last, n, pass
 
-      h(:) = 0.0_wp
-      before = ddot(size(v), v, 1, v, 1)
+      n = size(v)
+      h = 0.0_wp
+      before = ddot(n, v, 1, v, 1)
       do pass = 1, 2
-         do i = 1, size(basis)
-            part = ddot(size(v), basis(i)%values, 1, v, 1)
-            call daxpy(size(v), -part, basis(i)%values, 1, v, 1)
-            h(i) = h(i) + part
+         do first = 1, size(basis, 2), together
+            last = min(first + together - 1, size(basis, 2))
+            call dgemv('T', n, last - first + 1, 1.0_wp, basis(:, first:last), n, v, 1, 0.0_wp, parts, 1)
+            call dgemv('N', n, last - first + 1, -1.0_wp, basis(:, first:last), n, parts, 1, 1.0_wp, v, 1)
+            h(first:last) = h(first:last) + parts(:last - first + 1)
          end do
-         left = ddot(size(v), v, 1, v, 1)
+         left = ddot(n, v, 1, v, 1)
          if (left > enough*before) exit
       end do
       h(size(h)) = sqrt(left)

@@ -42,7 +42,7 @@ contains
       allocate (model%edge_loads(0), model%ring_loads(0), model%body_loads(0), &
          model%thermal_loads(0))
       allocate (model%prescribed(0), model%initial_stresses(0), model%edge_supports(0), &
-         model%truncations(0))
+         model%truncations(0), model%left_out(0))
       allocate (model%lines(0), model%points(0), model%cuts(0), model%supported_faces(0))
    end function new_model
 

@@ -7,7 +7,7 @@ module axijoint_model_load
    private
    public :: edge_load_type, ring_load_type, body_load_type, thermal_load_type, prescribed_type, &
       initial_stress_type, edge_support_type, load_case_type, combination_type, increment_type, &
-      truncation_type, covers, is_stressed, scaled_stresses, stress_before
+      truncation_type, left_out_type, covers, is_stressed, scaled_stresses, stress_before
    public :: any_body, any_material
 
    !> An in-situ stress of all bodies, of all materials
@@ -127,6 +127,13 @@ module axijoint_model_load
       !> How it goes round the circle; not allocated if it is concentrated in points
       type(circle_function_type), allocatable :: course
    end type truncation_type
+
+   !> A harmonic up to M that is not in use, though loads have a part in it
+   type :: left_out_type
+      integer :: harmonic = 0
+      !> Load case (index)
+      integer :: case = 1
+   end type left_out_type
 
    !> A load increment in the tradition of Owen and Hinton
    type :: increment_type

@@ -9,7 +9,7 @@ module axijoint_model_model
    use axijoint_model_interface, only : interface_type
    use axijoint_model_load, only : edge_load_type, ring_load_type, body_load_type, &
       thermal_load_type, prescribed_type, initial_stress_type, edge_support_type, &
-      load_case_type, combination_type, increment_type, truncation_type
+      load_case_type, combination_type, increment_type, truncation_type, left_out_type
    use axijoint_model_material, only : solid_material_type, joint_material_type
    use axijoint_model_mesh, only : mesh_type
    use axijoint_model_request, only : line_type, point_type, keep_type, keep_names, cut_type, &
@@ -21,7 +21,7 @@ module axijoint_model_model
    implicit none
    private
    public :: model_type, is_shown, n_shown, shows_stress, held_components, held_at, can_yield, can_yield_at, &
-      bodies_yield, on_axis
+      bodies_yield, on_axis, left_out_harmonics
    public :: method_newton, method_total, method_anderson, method_transfer, method_names
    public :: body_anderson, body_newton, body_lbfgs, body_transfer, body_method_names
 
@@ -84,6 +84,8 @@ module axijoint_model_model
       !> What the harmonics leave of the loads, one entry a load that is given
       !> as a function of theta
       type(truncation_type), allocatable :: truncations(:)
+      !> Harmonics up to M that are not in use, though loads have a part in them
+      type(left_out_type), allocatable :: left_out(:)
       !> Load increments, at least one
       type(increment_type), allocatable :: increments(:)
       !> Highest harmonic M
@@ -238,5 +240,17 @@ contains
       shows_stress = is_kept(model%keep(keep_stress), increment, last) .or. model%sweep%wanted .or. model%old_listing
       if (size(model%lines) > 0) shows_stress = shows_stress .or. is_kept(model%keep(keep_series), increment, last)
    end function shows_stress
+
+   !> Harmonics that are not in use, though loads have a part in them
+   pure function left_out_harmonics(model) result(harmonics)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> The harmonics, ascending, each once
+      integer, allocatable :: harmonics(:)
+
+      integer :: m
+
+      harmonics = pack([(m, m=0, model%max_harmonic)], [(any(model%left_out%harmonic == m), m=0, model%max_harmonic)])
+   end function left_out_harmonics
 
 end module axijoint_model_model

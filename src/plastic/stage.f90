@@ -97,6 +97,7 @@ contains
       type(loading_type) :: loading
       real(wp), allocatable :: load(:)
 
+      stage%problem%steering = steering_type()  ! that of a try before
       call put(stage, history%at, history)
       if (allocated(history%failure)) return
       call stage%put_on_nodes(step%steered, loading)

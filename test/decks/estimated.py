@@ -368,6 +368,23 @@ FIXEDFACES
 {more}
 END
 """
+# A tube that stands on its foot
+FLUE = """TITLE
+Flue
+CONTROL
+{highest}
+MATERIALS
+1, 2000.0, 0.3, 2.5, 1.2E-5
+BLOCKS
+1, 1, 8, 2, 4
+0.5, 0.0, 1.0, 2.0
+FACES
+1, 1, 0.5, 0.0, 1.0, 0.0
+2, 1, 1.0, 0.0, 1.0, 2.0
+FIXEDFACES
+1, 111
+{more}END
+"""
 # A peg without friction in a hole that is closed above it: nothing presses the two together there
 SOCKET = """TITLE
 Peg in a socket
@@ -600,6 +617,32 @@ def gaps(program, folder):
         summary, _ = solved(program, folder, 'gaps', peg(f'HARMONICS\n{harmonics}\n' + WAVES.format(wave=wave), law=law))
         named = re.findall(r'estimates of errors do not know: (.*)', '\n'.join(summary['messages']))
         faults += expected(f'{harmonics!r}, {wave!r}, {law}: harmonics', wanted, named)
+    return faults
+
+
+def loaded_gaps(program, folder):
+    """Harmonics up to M that HARMONICS leaves out though loads have a part in them are named, and what they would add is not known.
+    Equal loads at equal angles have none in between: as many harmonics as they repeat give the same results as all"""
+    eight = range(0, 360, 45)
+    bolts = 'POINTLOADS\n' + ''.join(f'33,{angle},1.0\n' for angle in eight)
+    pads = 'SHAPES\n' + ''.join(f'{k},PATCH,{angle - 5},{angle + 5}\n' for k, angle in enumerate(eight, 1)) + 'PRESSURES\n' + ''.join(
+        f'2,,1.0,,,{k}\n' for k in range(1, 9))
+    faults, moved = [], {}
+    patch = 'SHAPES\n1,PATCH,-20,35\n'
+    for name, loads, harmonics, wanted in (
+            ('patch', patch + 'PRESSURES\n2,,1.0,,,1\n', '0\n2,4', '1'), ('patch, all', patch + 'PRESSURES\n2,,1.0,,,1\n', '', ''),
+            ('warm side', patch + 'TEMPERATURES\n1,,10.0,,,,1\n', '0\n3,4', '1, 2'), ('two forces', 'POINTLOADS\n33,0,1.0\n33,180,1.0\n', '0\n4', '2'),
+            ('bolts', bolts, '0,8,8', ''), ('bolts, all', bolts, '', ''), ('pads', pads, '0,8,8', ''), ('pads, all', pads, '', '')):
+        text = FLUE.format(highest=8 if loads in (bolts, pads) else 4, more=(f'HARMONICS\n{harmonics}\n' if harmonics else '') + loads)
+        ran = program.run('run', write(folder, 'gaps.dat', text), '-o', folder)
+        summary = json.loads(read_text(os.path.join(folder, 'gaps.json')))
+        named = re.findall(r'HARMONICS leaves out, too, .*: (.*)', '\n'.join(summary['messages']))
+        faults += ran.ended_with(0) + expected(f'{name}: harmonics', [wanted] if wanted else [], named)
+        faults += expected(f'{name}: warned', bool(wanted), f'harmonics that are not in use: {wanted}' in ran.err)
+        faults += expected(f'{name}: known', not wanted, summary['errors']['harmonics']['displacement'] is not None)
+        moved[name] = summary['increments'][-1]['largest_displacement']
+    for name in ('bolts', 'pads'):
+        faults += close(name, moved[f'{name}, all'], moved[name], 1e-12*moved[name])
     return faults
 
 
@@ -1114,7 +1157,7 @@ def left_out(program, folder):
 
 def tests(program):
     """The tests of this module"""
-    named = {'joint that reaches the axis': reaches_axis, 'gaps between harmonics': gaps, 'patch of rigid motion': rigid_patch,
+    named = {'joint that reaches the axis': reaches_axis, 'gaps between harmonics': gaps, 'loads in gaps': loaded_gaps, 'patch of rigid motion': rigid_patch,
              'flies off': flies_off, 'idle motion': idle_motion, 'bent': bent, 'rim': rim, 'lining': lining, 'built in': built_in, 'points with names': named_points, 'rules in ground': rules_in_ground, 'loose': loose, 'units of length': units_of_length,
              'least of yielding': least_of_yielding, 'locked': locked, 'torn bonds': torn_bonds, 'nearly incompressible': nearly_incompressible,
              'load beyond M': load_beyond, 'pressed bonds': pressed_bonds, 'slip of larger loads': slip_of_larger_loads,

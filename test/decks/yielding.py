@@ -456,6 +456,13 @@ def estimates(folder, program):
         faults.append(f'at the limit: {limit}')
     back = run(program, folder, cylinder((1.0, 0.4, -0.7)))['yielding']['errors']
     faults += expected('after unloading', (None, True), (back['planes']['load'], 'taken back' in back['in_words']))
+    # taken back by another load case: on the same face, or by a pressure from outside, whose forces are at other nodes
+    pressed = cylinder((1.3,), 3).replace('3, 1, ', f'4, 1, {OUTSIDE}, 0.0, {OUTSIDE}, 0.1\n3, 1, ', 1).replace('PRESSURES', 'CASE\n1\nPRESSURES')
+    for face, pressure in ((1, -100.0), (4, 100.0)):
+        deck = pressed.replace('INCREMENTS', f'CASE\n2\nPRESSURES\n{face}, 0, {pressure}\nCOMBINE\n1, 1, 1.0, 2, 1.0\nINCREMENTS').replace(
+            '1.3, 1E-8\n', '1.3, 1E-8, , 1\n1.2, 1E-8, , 2\n')
+        case = run(program, folder, deck)['yielding']['errors']
+        faults += expected(f'face {face}', (None, True), (case['sum']['load'], case['in_words'].startswith('not estimated: ')))
     before, beyond = (run(program, folder, cylinder(factors), (4,))['yielding']['errors'] for factors in ((1.0, 0.8), (1.0, 0.8, -0.7)))
     return faults + expected('unloading that it did not come to', before['in_words'], beyond['in_words'])
 

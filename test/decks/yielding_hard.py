@@ -6,7 +6,7 @@ import os
 
 import listing
 from support import Test, expected, read_text
-from yielding import COLLAPSE, YIELD_STRESS, cylinder, footing, off, run
+from yielding import COLLAPSE, YIELD_STRESS, cylinder, footing, off, run, steered
 
 # Uniform specimen: height and radius 1, Young's modulus, Poisson's ratio
 YOUNG, POISSON = 1000.0, 0.3
@@ -88,6 +88,18 @@ def first_step_too_large(folder, program):
             faults.append(f'factor {factor}: reached {reached} of {COLLAPSE}')
         if factor < 10.0 and reached < COLLAPSE - 100.0*factor/64.0*1.5:
             faults.append(f'factor {factor}: only {reached} of {COLLAPSE}')
+    return faults
+
+
+def few_iterations(folder, program):
+    """A displacement far beyond the collapse and two iterations a step, so that the smallest step is tried by each way there
+    is: in words"""
+    deck = steered(cylinder((30.0,))).replace('1E-8,,', '1E-8, 2,')
+    summary = run(program, folder, deck, (4,))
+    faults = expected('words', True, any(WORDS in text for text in summary['messages']))
+    reached = 100.0*summary['increments'][-1]['load_factor']
+    if not 0.0 < reached < COLLAPSE*(1.0 + 1e-3):
+        faults.append(f'reached {reached}, collapse at {COLLAPSE}')
     return faults
 
 
@@ -266,6 +278,6 @@ def tests(program):
 
     return [made('apex of MOHR', apex('MOHR')), made('apex of DRUCKER', apex('DRUCKER')),
             made('everywhere at once', everywhere_at_once), made('nearly incompressible', nearly_incompressible),
-            made('first step too large', first_step_too_large), made('strengths far apart', rings_far_apart),
-            made('without cohesion', without_cohesion), made('drawn out', drawn_out),
-            made('too much for a footing', too_much_for_a_footing)]
+            made('first step too large', first_step_too_large), made('few iterations', few_iterations),
+            made('strengths far apart', rings_far_apart), made('without cohesion', without_cohesion),
+            made('drawn out', drawn_out), made('too much for a footing', too_much_for_a_footing)]

@@ -9,7 +9,7 @@ module axijoint_analysis_core_remarks
    use axijoint_analysis_core_totals, only : largest_displacement, peak_type
    use axijoint_analysis_fine_walls, only : most_across, longest_seen
    use axijoint_base_kinds, only : wp, degree
-   use axijoint_base_text, only : to_text, count_of, name_of
+   use axijoint_base_text, only : to_text, count_of, name_of, list_of
    use axijoint_element_joint_law, only : joint_law_type, opening_reversible, eta, state_stick
    use axijoint_fe_element_kind, only : is_reduced, reduced_hint
    use axijoint_joints_field, only : joint_field_type, n_across_gaps, n_fading
@@ -17,7 +17,7 @@ module axijoint_analysis_core_remarks
    use axijoint_joints_path, only : iteration_type
    use axijoint_joints_watch, only : runaway
    use axijoint_model_locking, only : has_nearly_incompressible
-   use axijoint_model_model, only : model_type, bodies_yield
+   use axijoint_model_model, only : model_type, bodies_yield, left_out_harmonics
    use axijoint_model_modes, only : greatest_divisor
    use axijoint_model_request, only : goal_joints, goal_names, refinement_type, is_kept, keep_series
    implicit none
@@ -135,7 +135,7 @@ contains
       halved = pack(halved, [(count(results%residuals%increment == i) > 1, i=1, size(halved))])
       if (size(halved) == 0) return
       call add(remarks, trim(merge('increment ', 'increments', size(halved) == 1))//' '// &
-         list_of(halved(:min(size(halved), most_named)))//trim(merge(', ...', '     ', size(halved) > most_named))// &
+         list_of(halved, most_named)// &
          ' in smaller steps, as no equilibrium was found at once: what slips depends on the path, of which estimates of errors '// &
          'know nothing; more increments show how much')
    end subroutine remark_on_steps
@@ -167,6 +167,11 @@ contains
       !> Part of a load that is worth a word
       real(wp), parameter :: much = 0.05_wp
 
+      if (size(model%left_out) > 0) then
+         call add(remarks, 'loads have parts in harmonics that HARMONICS leaves out, too, whose share of the answer is '// &
+            'not known: '//list_of(left_out_harmonics(model), most_named))
+         return
+      end if
       if (.not. allocated(results%budget)) return
       associate (share => results%budget(source_harmonics))
          if (share%displacement >= 0.0_wp .or. .not. share%load > much .or. share%load >= 1.0_wp) return  ! 1: a load at a point
@@ -470,24 +475,8 @@ contains
       end do
       if (size(left_out) == 0) return
       call add(remarks, 'joints that open or slip act in harmonics that HARMONICS leaves out, too, which estimates of errors '// &
-         'do not know: '//list_of(left_out(:min(size(left_out), most_named)))//trim(merge(', ...', '     ', &
-         size(left_out) > most_named)))
+         'do not know: '//list_of(left_out, most_named))
    end subroutine remark_on_gaps
-
-   !> Numbers with commas between them
-   pure function list_of(numbers) result(text)
-      !> The numbers, one at least
-      integer, intent(in) :: numbers(:)
-      !> The list
-      character(len=:), allocatable :: text
-
-      integer :: k
-
-      text = to_text(numbers(1))
-      do k = 2, size(numbers)
-         text = text//', '//to_text(numbers(k))
-      end do
-   end function list_of
 
    !> Whether the rounds of refinement met the target, and if not, why
    subroutine remark_on_goal(model, refinement, note, unknown, results)

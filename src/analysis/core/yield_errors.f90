@@ -37,6 +37,8 @@ module axijoint_analysis_core_yield_errors
       !> Growth of the displacement in the last step over that of the load, each over what it came
       !> to: 1 of elastic bodies. Negative if the load grew no more
       real(wp) :: softness = -1.0_wp
+      !> Load by which the state found in one step is off, over that of the state, if that is too much; else zero
+      real(wp) :: other_way = 0.0_wp
       !> Time that the estimates took [second]
       real(wp) :: seconds = 0.0_wp
    end type yield_errors_type
@@ -81,7 +83,7 @@ contains
       type(yield_share_type) :: total
 
       total = sum_of_yield_shares(errors)
-      loses = errors%loaded .and. .not. errors%turned_back &
+      loses = errors%loaded .and. .not. errors%turned_back .and. .not. errors%other_way > 0.0_wp &
          .and. (errors%softness < 0.0_wp .or. errors%softness*total%load > most_moved)
    end function loses_displacement
 

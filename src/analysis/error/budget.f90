@@ -138,6 +138,12 @@ contains
          end associate
       end do
       if (.not. share%load > 0.0_wp) return
+      if (any(abs(case_factor(model%left_out%case)) > 0.0_wp)) then  ! what others tell is no measure of these
+         share%displacement = -1.0_wp
+         share%joint_stress = -1.0_wp
+         share%at_points = -1.0_wp
+         return
+      end if
       if (share%load >= 1.0_wp) share%remedy = 'loads on parts of the circle in place of those at points'
       harmonic = results%modes%harmonic
       amplitude = [(sqrt(maxval(sum(results%displacement(:, :, k)**2, 1))), k=1, &

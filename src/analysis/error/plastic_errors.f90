@@ -7,12 +7,13 @@ module axijoint_analysis_error_plastic_errors
    use axijoint_analysis_core_results, only : results_type
    use axijoint_analysis_core_structure, only : structure_type, build_equations
    use axijoint_analysis_core_totals, only : largest_vector
-   use axijoint_analysis_core_yield_errors, only : yield_share_type, loses_displacement, &
-      yield_mesh, yield_harmonics, yield_planes, yield_iteration
+   use axijoint_analysis_core_yield_errors, only : yield_errors_type, yield_share_type, sum_of_yield_shares, &
+      loses_displacement, yield_mesh, yield_harmonics, yield_planes, yield_iteration
    use axijoint_analysis_error_plastic_variants, only : take_more_planes, take_more_harmonics, &
       take_fewer_harmonics, mesh_harmonics
    use axijoint_analysis_fine_mesh, only : fine_mesh_type, prolong
    use axijoint_analysis_fine_whole_model, only : new_whole_model
+   use axijoint_assembly_loading, only : loading_type, new_loading
    use axijoint_base_error, only : error_type, exit_memory
    use axijoint_base_kinds, only : wp
    use axijoint_base_progress, only : progress_type, show_progress
@@ -36,6 +37,10 @@ module axijoint_analysis_error_plastic_errors
    !> Least error of a mesh that is told: states on two meshes may agree by chance, as zones that yield do not grow steadily
    !> from mesh to mesh, and states are found no better
    real(wp), parameter :: least_told = 5.0e-4_wp
+   !> Cosine of the angle between two loads below which one takes back what the other did
+   real(wp), parameter :: against = -0.5_wp
+   !> Load, over that of the state, by which one found in one step may be off without a word
+   real(wp), parameter :: least_other_way = 0.02_wp
 
 contains
 
@@ -61,7 +66,10 @@ contains
          call last_loads(model, results%states, loads)
          errors%loaded = allocated(loads%steered)
          shares(yield_iteration)%load = results%residual_ratio
-         errors%turned_back = turns_back(model, combination, results%states(size(results%states))%increment)
+         associate (last => results%states(size(results%states))%increment)
+            errors%turned_back = turns_back(model, combination, last)
+            if (.not. errors%turned_back) errors%turned_back = opposed(model, structure, combination, last)
+         end associate
          errors%at_limit = .not. (results%converged .or. allocated(loads%moved) .or. errors%loaded)
          if (errors%turned_back .or. errors%at_limit) return
          call show_progress(progress, 'estimating errors of bodies that yield')
@@ -71,11 +79,87 @@ contains
             call by_harmonics(model, structure, loads, planes, shares(yield_harmonics), progress)
             call by_mesh(model, structure, loads, base, shares(yield_mesh), progress)
          end if
+         if (base%found .and. errors%loaded) call judge_way(loads, base, errors)
          if (errors%loaded .and. .not. loses_displacement(errors)) &
             call find_moved(errors%softness, shares)
          errors%seconds = omp_get_wtime() - start
       end associate
    end subroutine estimate_plastic_errors
+
+   !> Forget what is known of the errors if the state is another one than that found in one step by more than these: the order of
+   !> the loads made it, of which a single step knows nothing
+   pure subroutine judge_way(loads, base, errors)
+      !> The loads, steered
+      type(single_load_type), intent(in) :: loads
+      !> The state found in one step
+      type(single_state_type), intent(in) :: base
+      !> The errors
+      type(yield_errors_type), intent(inout) :: errors
+
+      type(yield_share_type) :: total
+
+      total = sum_of_yield_shares(errors)
+      errors%other_way = ratio(abs(base%value - loads%factor), abs(loads%factor))
+      if (errors%other_way <= max(least_other_way, total%load)) then
+         errors%other_way = 0.0_wp
+         return
+      end if
+      errors%shares(:yield_iteration - 1)%load = -1.0_wp
+      errors%shares(:yield_iteration - 1)%displacement = -1.0_wp
+   end subroutine judge_way
+
+   !> Whether loads of an increment are against those before it, if not those of the same load case: forces on the nodes together,
+   !> or displacements that are given
+   logical function opposed(model, structure, combination, last)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> The structure
+      type(structure_type), intent(in) :: structure
+      !> Factors of its load cases
+      type(combination_type), intent(in) :: combination
+      !> Increments that were begun
+      integer, intent(in) :: last
+
+      type(increment_state_type) :: steps(size(model%increments))
+      type(loading_type) :: before, added
+      integer :: i
+
+      opposed = .false.
+      if (size(model%load_cases) == 1) return
+      steps = loads_of_increments(model, combination)
+      do i = 2, last
+         associate (change => steps(i)%case_factor - steps(i - 1)%case_factor)
+            if (.not. any(abs(change) > 0.0_wp)) cycle
+            before = loads_of(steps(i - 1)%case_factor)
+            added = loads_of(change)
+         end associate
+         opposed = opposed .or. cosine(before%right, added%right) < against
+         if (allocated(before%held)) opposed = opposed .or. any(before%held*added%held < 0.0_wp)
+      end do
+
+   contains
+
+      !> Loads of some factors of the load cases
+      function loads_of(factor) result(loading)
+         !> The factors
+         real(wp), intent(in) :: factor(:)
+         !> The loads
+         type(loading_type) :: loading
+
+         call new_loading(model, structure%joint_points, structure%support_points, structure%modes, &
+            structure%equations%unit_loads, combination_type(0, factor), loading)
+      end function loads_of
+
+   end function opposed
+
+   !> Cosine of the angle between two sets of forces; zero if there are none
+   pure real(wp) function cosine(a, b)
+      !> The forces, shape (3, nodes, modes)
+      real(wp), intent(in) :: a(:, :, :), b(:, :, :)
+
+      cosine = sum(a*b)
+      if (abs(cosine) > 0.0_wp) cosine = cosine/(norm2(a)*norm2(b))
+   end function cosine
 
    !> What the displacement of the loads changes if these are kept the same
    pure subroutine find_moved(softness, shares)

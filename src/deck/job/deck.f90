@@ -17,7 +17,7 @@ module axijoint_deck_job_deck
    use axijoint_model_strips, only : strip_type
    implicit none
    private
-   public :: deck_type, read_section_type, reader_type
+   public :: deck_type, read_section_type, reader_type, up_to_highest
    public :: stage_job, stage_properties, stage_elements, stage_blocks, stage_faces, stage_joints, &
       stage_loads, stage_requests, n_stages
 
@@ -88,5 +88,19 @@ module axijoint_deck_job_deck
          type(deck_type), intent(inout), target :: deck
       end subroutine section_reader
    end interface
+
+contains
+
+   !> All harmonics of a job, whether in use or not: shapes and forces at points are decomposed into these
+   pure function up_to_highest(deck) result(harmonics)
+      !> The deck
+      type(deck_type), intent(in) :: deck
+      !> 0 to M
+      integer, allocatable :: harmonics(:)
+
+      integer :: m
+
+      harmonics = [(m, m=0, max(0, deck%highest))]
+   end function up_to_highest
 
 end module axijoint_deck_job_deck

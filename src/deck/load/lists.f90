@@ -6,7 +6,7 @@ module axijoint_deck_load_lists
    use axijoint_deck_mesh_draft, only : edge_type
    use axijoint_fe_mode, only : mode_type, same_mode
    use axijoint_model_load, only : edge_load_type, ring_load_type, body_load_type, &
-      thermal_load_type, prescribed_type, initial_stress_type, edge_support_type
+      thermal_load_type, prescribed_type, initial_stress_type, edge_support_type, left_out_type
    use axijoint_model_model, only : model_type
    implicit none
    private
@@ -14,6 +14,9 @@ module axijoint_deck_load_lists
    public :: add_tractions, add_ring_load, add_body_load, add_temperatures, add_move, &
       add_initial_stress, &
       add_edge_support
+
+   !> Rounding of a sum over the sizes of what is summed
+   real(wp), parameter :: rounding = 1.0e-13_wp
 
    !> A given displacement, and what its card says of it
    type, extends(prescribed_type) :: move_type
@@ -259,36 +262,109 @@ contains
       lists%moves(lists%n_moves) = move
    end subroutine add_move
 
-   !> Move the loads into the model; displacements are left to their check
+   !> Move the loads into the model, but those of harmonics that are not in use, which are noted; displacements are left to their
+   !> check
    pure subroutine take_loads(lists, model)
       !> The lists
       type(load_lists_type), intent(inout) :: lists
-      !> The job
+      !> The job, with its harmonics
       type(model_type), intent(inout) :: model
 
+      logical, allocatable :: edge_acts(:), ring_acts(:)
       integer :: k
 
+      allocate (model%left_out(0))
       associate (edges => lists%edge_loads(:lists%n_edge_loads), rings => lists%ring_loads(:lists%n_ring_loads))
+         allocate (edge_acts(size(edges)), ring_acts(size(rings)), source=.true.)
          if (lists%truncations%n > 1) then
-            model%edge_loads = pack(edges, .not. cancel_each_other( &
+            edge_acts = .not. cancel_each_other( &
                reshape([(edges(k)%case, edges(k)%mode%harmonic, edges(k)%mode%family, edges(k)%nodes(:2), k=1, size(edges))], &
-               [5, size(edges)]), reshape([(edges(k)%traction, k=1, size(edges))], [9, size(edges)])))
-            model%ring_loads = pack(rings, .not. cancel_each_other( &
+               [5, size(edges)]), reshape([(edges(k)%traction, k=1, size(edges))], [9, size(edges)]))
+            ring_acts = .not. cancel_each_other( &
                reshape([(rings(k)%case, rings(k)%mode%harmonic, rings(k)%mode%family, rings(k)%node, k=1, size(rings))], &
-               [4, size(rings)]), reshape([(rings(k)%force, k=1, size(rings))], [3, size(rings)])))
-         else
-            model%edge_loads = edges
-            model%ring_loads = rings
+               [4, size(rings)]), reshape([(rings(k)%force, k=1, size(rings))], [3, size(rings)]))
          end if
+         do k = 1, size(edges)
+            if (is_used(model, edges(k)%mode)) cycle
+            if (edge_acts(k) .and. any(abs(edges(k)%traction) > 0.0_wp)) call note(model, edges(k)%mode, edges(k)%case)
+            edge_acts(k) = .false.
+         end do
+         do k = 1, size(rings)
+            if (is_used(model, rings(k)%mode)) cycle
+            if (ring_acts(k) .and. any(abs(rings(k)%force) > 0.0_wp)) call note(model, rings(k)%mode, rings(k)%case)
+            ring_acts(k) = .false.
+         end do
+         model%edge_loads = pack(edges, edge_acts)
+         model%ring_loads = pack(rings, ring_acts)
       end associate
+      call take_temperatures(lists, model)
       call move_alloc(lists%body_loads, model%body_loads)
-      call move_alloc(lists%thermal_loads, model%thermal_loads)
       call move_alloc(lists%initial_stresses, model%initial_stresses)
       call move_alloc(lists%edge_supports, model%edge_supports)
       allocate (model%truncations(lists%truncations%n))
-      if (lists%truncations%n > 0) &
-         model%truncations = lists%truncations%entries(:lists%truncations%n)
+      if (lists%truncations%n > 0) model%truncations = lists%truncations%entries(:lists%truncations%n)
    end subroutine take_loads
+
+   !> Move the temperatures into the model, but those of harmonics that are not in use
+   pure subroutine take_temperatures(lists, model)
+      !> The lists
+      type(load_lists_type), intent(inout) :: lists
+      !> The job, with its harmonics
+      type(model_type), intent(inout) :: model
+
+      real(wp) :: largest
+      integer :: k, n
+
+      largest = 0.0_wp
+      do k = 1, size(lists%thermal_loads)
+         largest = max(largest, maxval(abs(lists%thermal_loads(k)%temperature)))
+      end do
+      n = count([(is_used(model, lists%thermal_loads(k)%mode), k=1, size(lists%thermal_loads))])
+      if (n == size(lists%thermal_loads)) then
+         call move_alloc(lists%thermal_loads, model%thermal_loads)
+         return
+      end if
+      if (allocated(model%thermal_loads)) deallocate (model%thermal_loads)
+      allocate (model%thermal_loads(n))
+      n = 0
+      do k = 1, size(lists%thermal_loads)
+         associate (load => lists%thermal_loads(k))
+            if (is_used(model, load%mode)) then
+               n = n + 1
+               model%thermal_loads(n)%mode = load%mode
+               model%thermal_loads(n)%case = load%case
+               model%thermal_loads(n)%body = load%body
+               call move_alloc(load%temperature, model%thermal_loads(n)%temperature)
+            else if (maxval(abs(load%temperature)) > rounding*largest) then
+               call note(model, load%mode, load%case)
+            end if
+         end associate
+      end do
+   end subroutine take_temperatures
+
+   !> Whether the harmonic of a mode is in use
+   pure logical function is_used(model, mode)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> The mode
+      type(mode_type), intent(in) :: mode
+
+      is_used = .true.
+      if (size(model%harmonics) <= model%max_harmonic) is_used = any(model%harmonics == mode%harmonic)
+   end function is_used
+
+   !> Note a harmonic in which loads have a part, though it is not in use
+   pure subroutine note(model, mode, case)
+      !> The job
+      type(model_type), intent(inout) :: model
+      !> The mode
+      type(mode_type), intent(in) :: mode
+      !> Load case
+      integer, intent(in) :: case
+
+      if (any(model%left_out%harmonic == mode%harmonic .and. model%left_out%case == case)) return
+      model%left_out = [model%left_out, left_out_type(mode%harmonic, case)]
+   end subroutine note
 
    !> Which loads of the same place and mode come to nothing but rounding together, as equal ones at equal angles in most harmonics:
    !> what is left of them would need restraints of its own
@@ -299,8 +375,6 @@ contains
       !> Which do, shape (loads)
       logical :: cancel(size(keys, 2))
 
-      !> Rounding of a sum over the sizes of what is summed
-      real(wp), parameter :: rounding = 1.0e-13_wp
       integer :: order(size(keys, 2)), first, last
 
       order = lexical_order(real(keys, wp))

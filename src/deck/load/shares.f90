@@ -37,7 +37,7 @@ contains
    pure function shares_of(f, harmonics) result(shares)
       !> The shape
       type(circle_function_type), intent(in) :: f
-      !> Harmonics in use
+      !> Harmonics
       integer, intent(in) :: harmonics(:)
       !> What each mode takes; modes that take nothing are left out
       type(share_type), allocatable :: shares(:)

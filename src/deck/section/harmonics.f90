@@ -1,19 +1,23 @@
 !> HARMONICS: which harmonics are used
 module axijoint_deck_section_harmonics
-   use axijoint_base_text, only : to_text
+   use axijoint_base_text, only : to_text, list_of
    use axijoint_deck_job_card, only : card_type, cards_of, next_card
    use axijoint_deck_job_deck, only : deck_type, read_section_type, stage_loads
    use axijoint_deck_text_common_fields, only : step_field => step, largest_harmonic
-   use axijoint_deck_text_entry, only : is_given, integer_of, is_good, is_sound, field_fault
+   use axijoint_deck_text_diagnostics, only : add_warning
+   use axijoint_deck_text_entry, only : is_given, integer_of, is_good, is_sound, field_fault, first_card
    use axijoint_deck_text_field, only : integer_field, described
+   use axijoint_model_model, only : left_out_harmonics
    implicit none
    private
-   public :: harmonics_section
+   public :: harmonics_section, warn_of_left_out
 
    !> The keyword
    character(len=*), parameter :: keyword_harmonics = 'HARMONICS'
    !> Fields
    integer, parameter :: field_first = 1, field_last = 2, field_step = 3
+   !> Most harmonics that a message names
+   integer, parameter :: most_named = 8
 
 contains
 
@@ -59,6 +63,23 @@ contains
       deck%harmonics = pack([(m, m=0, max(0, deck%highest))], used)
       deck%model%harmonics = deck%harmonics
    end subroutine read_harmonics
+
+   !> Warn of harmonics up to M that are not in use, though loads have a part in them, once these are read
+   subroutine warn_of_left_out(deck)
+      !> The deck
+      type(deck_type), intent(inout), target :: deck
+
+      type(card_type) :: card
+      integer, allocatable :: harmonics(:)
+
+      harmonics = left_out_harmonics(deck%model)
+      if (size(harmonics) == 0) return
+      card = cards_of(deck, keyword_harmonics)
+      if (.not. next_card(card)) return
+      call add_warning(deck%diagnostics, first_card(card), 0, 0, &
+                       'loads have parts in harmonics that are not in use: '//list_of(harmonics, most_named), &
+                       mend='add these to HARMONICS, or leave the section out: what their parts do is in no result')
+   end subroutine warn_of_left_out
 
    !> Read and check one card
    subroutine read_range(card, highest, first, last, step)

@@ -46,7 +46,7 @@ contains
          call file%put("  "//merge("sum (at least)", "sum           ", some_unknown(errors))// &
                        share_text(sum_of_yield_shares(errors)))
          call write_sentence(file, "  ", yield_errors_text(errors))
-         if (errors%turned_back .or. errors%at_limit) return
+         if (errors%turned_back .or. errors%at_limit .or. errors%other_way > 0.0_wp) return
          do i = 1, size(way)
             call file%put("  "//trim(way(i)))
          end do
@@ -103,6 +103,11 @@ contains
       if (errors%at_limit) then
          text = 'not estimated: the history ended before its loads, and displacements under '// &
             'loads that are almost the last say nothing'
+         return
+      end if
+      if (errors%other_way > 0.0_wp) then
+         text = 'not estimated: the state found again in one step is another one, by '//fine_percent(errors%other_way)// &
+            ' of the load: the order of the loads made this one'
          return
       end if
       total = sum_of_yield_shares(errors)
