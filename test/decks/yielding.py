@@ -467,6 +467,40 @@ def estimates(folder, program):
     return faults + expected('unloading that it did not come to', before['in_words'], beyond['in_words'])
 
 
+def beside_criteria(folder, program):
+    """A bar bent a hundred times beyond yield: the criterion admits the yield stress either way, its sum of harmonics overshoots.
+    With M = 1 it is that of the planes 0, 45, ... degrees: (1 + sqrt 2)/2 times the yield stress at theta = 0"""
+    deck = '''TITLE
+Bar
+CONTROL
+1, , , 2
+MATERIALS
+1, 1000, 0.4999
+YIELD
+1, MISES, 1
+BLOCKS
+1, 1, 8, 6, 1
+0.0, 0.0, 1.0, 0.5
+FACES
+1, 1, 0.0, 0.0, 1.0, 0.0
+2, 1, 0.0, 0.5, 1.0, 0.5
+RESTRAINTS
+1, 101, , , 1, 1
+MOVEDFACES
+1, 1, , 0.0
+2, 1, , -0, , , -0.5
+INCREMENTS
+0.1
+END
+'''
+    summary = run(program, folder, deck)
+    faults = off('sums beside the criterion', summary['yielding']['stress_beside_criteria'], 0.5*(math.sqrt(2.0) - 1.0), 2e-2)
+    faults += expected('remark', True, any('beside what the criteria admit' in text for text in summary['messages']))
+    round_bar = run(program, folder, cylinder((1.2,)))
+    faults += expected('axisymmetric', True, round_bar['yielding']['stress_beside_criteria'] < 1e-12)
+    return faults + expected('no remark', False, any('beside what' in text for text in round_bar['messages']))
+
+
 def slid(elements, harmonic=1):
     """A rigid rough footing on clay of Tresca that is pressed down, then slid"""
     return f"""TITLE
@@ -1020,7 +1054,7 @@ def tests(program):
             made('joint or soil, Tresca', weaker_of_both('TRESCA')), made('families', families),
             made('harmonics', harmonics), made('back and forth', back_and_forth),
             made('disc in clay', disc_in_clay), made('footing on clay', footing_on_clay),
-            made('errors estimated', estimates), made('odd harmonics', odd_harmonics), made('sliding', slid_footing), made('fewest planes', fewest_planes), made('joint in weight', joint_in_weight), made('history in situ', in_situ_history), made('bent', bent), made('parts', parts),
+            made('errors estimated', estimates), made('sums beside criteria', beside_criteria), made('odd harmonics', odd_harmonics), made('sliding', slid_footing), made('fewest planes', fewest_planes), made('joint in weight', joint_in_weight), made('history in situ', in_situ_history), made('bent', bent), made('parts', parts),
             made('pulled out', pulled_out), made('found loads beside joints', found_loads),
             made('Newton beside joints', newton_beside_joints),
             made('cohesion that is lost', cohesion_that_is_lost),

@@ -3,8 +3,10 @@ module axijoint_analysis_core_plastic_fields
    use axijoint_base_kinds, only : wp
    use axijoint_element_yield_law, only : elastic_strain
    use axijoint_element_yield_margin, only : yield_margin, bearing
+   use axijoint_element_yield_stress, only : root_j2
    use axijoint_fe_mode, only : mode_type
    use axijoint_joints_planes, only : planes_type, synthesize, plane_weights
+   use axijoint_joints_residual, only : ratio
    use axijoint_joints_states, only : plastic_state_type
    use axijoint_model_model, only : model_type
    use axijoint_plastic_bodies, only : bodies_type, new_bodies
@@ -36,6 +38,11 @@ module axijoint_analysis_core_plastic_fields
       !> (6, points of these, planes), and weights of these points and planes in an integral over
       !> the bodies
       real(wp), allocatable :: stress(:, :, :), strain(:, :, :), point_weight(:), plane_weight(:)
+      !> Places of these points among all Gauss points
+      integer, allocatable :: place(:)
+      !> By how much sums of the harmonics are beside that stress at most, by the root of J2 over the largest of points that have
+      !> yielded
+      real(wp) :: beside = 0.0_wp
    end type plastic_fields_type
 
 contains
@@ -64,6 +71,7 @@ contains
       fields%angles = planes%angle
       fields%plane_weight = plane_weights(planes)
       fields%point_weight = bodies%weight
+      fields%place = bodies%place
       own = 0
       own(bodies%place) = [(i, i=1, size(bodies%place))]
       associate (n => size(bodies%laws), n_planes => size(planes%angle))
@@ -103,7 +111,24 @@ contains
             end do
          end do
       end associate
+      if (size(state%place) > 0) fields%beside = ratio(largest_shear(state%taken - synthesize(planes, state%amplitude)), &
+         largest_shear(fields%stress(:, own(state%place), :)))
    end function plastic_fields
+
+   !> Largest root of J2 of some stresses
+   pure real(wp) function largest_shear(stress) result(largest)
+      !> Stresses, shape (6, points, planes)
+      real(wp), intent(in) :: stress(:, :, :)
+
+      integer :: i, j
+
+      largest = 0.0_wp
+      do j = 1, size(stress, 3)
+         do i = 1, size(stress, 2)
+            largest = max(largest, root_j2(stress(:, i, j)))
+         end do
+      end do
+   end function largest_shear
 
    !> Equivalent strain sqrt(2/3 e:e): in uniaxial tension of what keeps its volume, its strain
    pure real(wp) function equivalent(strain)

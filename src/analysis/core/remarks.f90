@@ -9,7 +9,7 @@ module axijoint_analysis_core_remarks
    use axijoint_analysis_core_totals, only : largest_displacement, peak_type
    use axijoint_analysis_fine_walls, only : most_across, longest_seen
    use axijoint_base_kinds, only : wp, degree
-   use axijoint_base_text, only : to_text, count_of, name_of, list_of
+   use axijoint_base_text, only : to_text, count_of, name_of, list_of, percent_text
    use axijoint_element_joint_law, only : joint_law_type, opening_reversible, eta, state_stick
    use axijoint_fe_element_kind, only : is_reduced, reduced_hint
    use axijoint_joints_field, only : joint_field_type, n_across_gaps, n_fading
@@ -33,6 +33,8 @@ module axijoint_analysis_core_remarks
    real(wp), parameter :: lost = 2.0_wp, shows = 2.0e-6_wp, mean_lost = 2.0e4_wp, mean_shows = 1.0e-3_wp
    !> So many harmonics or increments are named
    integer, parameter :: most_named = 8
+   !> Part of the largest stress by which sums of harmonics may be beside yield criteria without a word
+   real(wp), parameter :: much_beside = 0.05_wp
 
 contains
 
@@ -76,6 +78,9 @@ contains
       if (results%converged .and. is_loose(model, results)) call add(remarks, reduced_hint)
       if (size(results%path) > 0) call remark_on_accuracy(model, structure, field, results, remarks)
       call remark_on_cut_off(model, results, remarks)
+      if (results%plastic%beside > much_beside) call add(remarks, 'stresses of bodies that yield are sums of harmonics, up to '// &
+         percent_text(results%plastic%beside)//' of the largest beside what the criteria admit on their planes '// &
+         '(/yield/stress): more harmonics bring them together (M in CONTROL)')
       call remark_on_size(model, results, remarks)
       if (results%locks .and. allocated(results%budget)) call add(remarks, 'elements of a material that is nearly '// &
          'incompressible lock, or nearly so beside corners, and finer ones as well: estimates of errors see little of that; '// &

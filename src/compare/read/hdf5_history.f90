@@ -21,8 +21,9 @@ module axijoint_compare_read_hdf5_history
    real(wp), parameter :: most_values = 3.0e6_wp
    !> Datasets that are not compared: what they show follows from others, or is no result that is
    !> settled
-   character(len=*), parameter :: passed_over(5) = [character(len=27) :: '/history/joint_amplitude', &
-      '/history/nodal_stress', '/history/sections', '/yield/active', '/yield/failing_displacement']
+   character(len=*), parameter :: passed_over(7) = [character(len=27) :: '/history/joint_amplitude', &
+      '/history/nodal_stress', '/history/sections', '/yield/active', '/yield/failing_displacement', &
+      '/yield/stress', '/yield/stress_point']
 
 contains
 

@@ -4,13 +4,13 @@ module axijoint_output_table_yielding
    use axijoint_analysis_core_plastic_fields, only : plastic_fields_type
    use axijoint_analysis_core_results, only : results_type
    use axijoint_base_kinds, only : wp, degree
-   use axijoint_base_text, only : to_text, lower
+   use axijoint_base_text, only : to_text, lower, percent_text
    use axijoint_element_yield_law, only : criterion_names
    use axijoint_element_yield_margin, only : bearing_names
    use axijoint_model_model, only : model_type, body_method_names
    use axijoint_output_file_columns, only : columns
    use axijoint_output_file_hdf5, only : hdf5_file_type
-   use axijoint_output_file_headings, only : write_result_heading
+   use axijoint_output_file_headings, only : write_result_heading, write_sentence
    use axijoint_output_file_json, only : json_number
    use axijoint_output_file_text, only : text_file_type
    use axijoint_output_table_yield_errors, only : yield_errors_json, write_yield_errors_group
@@ -24,6 +24,8 @@ module axijoint_output_table_yielding
    character(len=*), parameter :: format_label = '(i10)'
    !> Columns of reals
    integer, parameter :: wide = 15
+   !> Difference of stresses that is no rounding
+   real(wp), parameter :: shows = 1.0e-6_wp
 
 contains
 
@@ -58,6 +60,8 @@ contains
          end associate
       end do
       call write_elements(file, model, results)
+      if (results%plastic%beside > shows) call write_sentence(file, "  ", 'stresses in tables are sums of the harmonics: up to '// &
+         percent_text(results%plastic%beside)//' of the largest beside what the criteria admit on their planes')
    end subroutine write_yielding
 
    !> Elements that have yielded: the point and plane with the least margin, the largest plastic
@@ -116,6 +120,7 @@ contains
          '", "planes": '//json_number(size(results%plastic%angles))// &
          ', "least_margin": '//json_number(minval(results%plastic%margin))// &
          ', "largest_plastic_strain": '//json_number(maxval(results%plastic%equivalent))// &
+         ', "stress_beside_criteria": '//json_number(results%plastic%beside)// &
          ', "no_equilibrium_at": '
       if (allocated(results%failing)) then
          json = json//json_number(results%tried)
@@ -223,6 +228,9 @@ contains
          "Equivalent plastic strain sqrt(2/3 e:e); (point, plane)")
       call file%write("/yield/margin", fields%margin, &
          "Share of the strength that is left, 1 without shear, 0 at yield; (point, plane)")
+      call file%write("/yield/stress", fields%stress, "Stress that the criteria admit on the planes at the points "// &
+         "that can yield, r, z, theta, rz, r-theta, z-theta; (6, own point, plane) [stress]")
+      call file%write("/yield/stress_point", fields%place, "Gauss point (index) of each; (own point)")
       call file%write("/yield/dissipation", fields%dissipation, "Work that plastic strain dissipated per volume in the "// &
          "last increment that had a step in equilibrium; (point, plane) [stress]")
       call file%write("/yield/point_weight", fields%weight, "Weight of the point in an integral over r, z, "// &
