@@ -17,7 +17,7 @@ module axijoint_analysis_static
    use axijoint_analysis_core_totals, only : largest_vector
    use axijoint_analysis_core_yielding_bodies, only : solve_bodies
    use axijoint_analysis_error_budget, only : new_budget
-   use axijoint_analysis_error_corrections, only : correct_rounding, keep_claim, solver_keeps_claim
+   use axijoint_analysis_error_corrections, only : correct_rounding, keep_claim, judge_solver
    use axijoint_analysis_error_discretization, only : estimate_discretization
    use axijoint_analysis_error_iteration_left, only : iteration_left_type, find_left
    use axijoint_analysis_error_joint_shares, only : displacement_scale, yielding_scale, unloaded
@@ -170,7 +170,7 @@ contains
       if (results%converged) then
          results%point_size = largest_at_points(model%points, results%modes, results%displacement)
          if (estimates) results%budget = new_budget(model, history%loading%case_factor, results)
-         results%converged = solver_keeps_claim(results)
+         call judge_solver(results)
       end if
       call check_stop(error)
       if (estimates .and. .not. allocated(error)) then

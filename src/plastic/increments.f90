@@ -34,6 +34,8 @@ module axijoint_plastic_increments
 
    !> Joints are brought to equilibrium to this share of the tolerance of the bodies
    real(wp), parameter :: joint_share = 1.0e-2_wp
+   !> and bodies to this share of it: displacements found again from their plastic strain leave what is rounding of that strain
+   real(wp), parameter :: body_share = 0.9_wp
 
    !> What the increments of bodies that yield act on
    type, extends(body_stage_type) :: body_increments_type
@@ -196,7 +198,7 @@ contains
 
       associate (bodies => stage%bodies, increment => stage%model%increments(history%increment))
          control%method = merge(body_lbfgs, stage%model%body_method, bodies%field%goes_down)
-         control%tolerance = increment%tolerance
+         control%tolerance = body_share*increment%tolerance
          control%most = increment%max_iterations
          if (allocated(stage%problem%joints)) then
             control%most = 2*control%most  ! elastic solutions, two an iteration

@@ -59,9 +59,9 @@ contains
       allocate (remarks(0))
       if (size(results%path) > 0) then
          call remark_on_end(model, structure, history, results, remarks)
-      else if (.not. results%converged .and. allocated(results%budget)) then
+      else if (.not. results%converged .and. results%uncertain > 0.0_wp) then
          call add(remarks, 'rounding in the solver leaves displacements uncertain by '// &
-                  to_text(results%budget(size(results%budget))%displacement)// &
+                  to_text(results%uncertain)// &
                   ' of the largest: stiffnesses out of all proportion?')
       else if (.not. results%converged) then
          call add(remarks, 'the equations are ill-conditioned (condition number '// &
@@ -284,10 +284,10 @@ contains
                   ' of the largest, more than 10 times it')
          return
       end if
-      if (allocated(results%budget)) then
+      if (results%uncertain > 0.0_wp) then
          call add(remarks, 'forces are balanced to the tolerance, but rounding in the solver '// &
             'leaves displacements '// &
-                  'uncertain by '//to_text(results%budget(size(results%budget))%displacement)// &
+                  'uncertain by '//to_text(results%uncertain)// &
                   ' of the largest, more than 10 times it')
          return
       end if

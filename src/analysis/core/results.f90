@@ -187,6 +187,8 @@ module axijoint_analysis_core_results
       !> Forces of the joint stress that belongs to the bodies' relative displacements but not to
       !> those that the laws saw, over the loads: rounding of very stiff joints
       real(wp) :: mismatch = 0.0_wp
+      !> What rounding in the solver leaves of displacements over the largest, if it is more than is claimed; else zero
+      real(wp) :: uncertain = 0.0_wp
       !> Tolerance on the residual-force ratio
       real(wp) :: tolerance = 0.0_wp
       !> Bytes that this process sent and received: in the iterations on the joints, and in all;

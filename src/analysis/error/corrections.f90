@@ -21,7 +21,7 @@ module axijoint_analysis_error_corrections
    use axijoint_model_model, only : model_type
    implicit none
    private
-   public :: correct_rounding, keep_claim, solver_keeps_claim
+   public :: correct_rounding, keep_claim, judge_solver
 
    !> A tolerance claims that displacements and joint stresses are as near to equilibrium as so many
    !> times it, over the largest
@@ -225,12 +225,13 @@ contains
       claim = claimed*tolerance*max(1.0_wp, condensed%proportion/stiff)
    end function claim
 
-   !> Whether the error that the solver leaves is what the tolerance claims
-   pure logical function solver_keeps_claim(results) result(keeps)
+   !> Nothing is converged where the solver leaves more error than the tolerance claims
+   pure subroutine judge_solver(results)
       !> Results with their largest displacement
-      type(results_type), intent(in) :: results
+      type(results_type), intent(inout) :: results
 
-      keeps = solver_error(results) <= claimed*results%tolerance
-   end function solver_keeps_claim
+      results%converged = solver_error(results) <= claimed*results%tolerance
+      if (.not. results%converged) results%uncertain = solver_error(results)
+   end subroutine judge_solver
 
 end module axijoint_analysis_error_corrections
