@@ -74,8 +74,9 @@ contains
          allocate (mesh%reduced(n), source=.false.)
          call open_body_loads(n, bodies)
       end associate
-      allocate (mesh%node_sets(0), mesh%element_sets(0), mesh%surfaces(0), names(0), materials(0))
-      call read_mesh(cards, mesh)
+      allocate (mesh%node_sets(0), mesh%element_sets(0), mesh%surfaces(0), names(0))
+      call read_mesh(cards, mesh, names)
+      allocate (materials(size(names)))
       at = 0
       n_steps = 0
       n_boundaries = 0
@@ -107,8 +108,7 @@ contains
                call read_surface(cards, line, at, mesh)
             end if
          case ('MATERIAL')
-            call open_set(names, parameter_of(line, 'NAME'), line%card, material)
-            if (material > size(materials)) materials = [materials, material_type()]
+            material = find_set(names, parameter_of(line, 'NAME'))
          case ('ELASTIC', 'DENSITY')
             call read_material(cards, line, at, material, materials, sketch)
          case ('SOLID SECTION')
@@ -173,15 +173,17 @@ contains
       end do
    end subroutine read_heading
 
-   !> Nodes and elements, wherever they stand: sets take what is there of them
-   subroutine read_mesh(cards, mesh)
+   !> Nodes, elements and names of materials, wherever they stand: sets take what is there of them, sections may stand above
+   subroutine read_mesh(cards, mesh, names)
       !> The file
       type(cards_type), intent(inout) :: cards
-      !> Takes them
+      !> Takes nodes and elements
       type(abaqus_type), intent(inout) :: mesh
+      !> Takes the names
+      type(set_type), allocatable, intent(inout) :: names(:)
 
       type(line_type) :: line
-      integer :: at
+      integer :: at, material
 
       at = 0
       do
@@ -190,6 +192,7 @@ contains
          if (line%kind /= line_keyword) cycle
          if (line%keyword == 'NODE') call read_nodes(cards, line, at, mesh)
          if (line%keyword == 'ELEMENT') call read_elements(cards, line, at, mesh)
+         if (line%keyword == 'MATERIAL') call open_set(names, parameter_of(line, 'NAME'), line%card, material)
       end do
    end subroutine read_mesh
 
@@ -280,7 +283,7 @@ contains
       if (set == 0) call fault_of(cards, line, 0, 'there is no set '//parameter_of(line, 'ELSET'), &
          'sets that are above')
       if (material == 0) call fault_of(cards, line, 0, 'there is no material '// &
-         parameter_of(line, 'MATERIAL'), '*MATERIAL above')
+         parameter_of(line, 'MATERIAL'), 'a name of *MATERIAL')
       if (set == 0 .or. material == 0) return
       do k = 1, mesh%element_sets(set)%list%n
          element = find_number(mesh%element_map, mesh%element_sets(set)%list%value(k))

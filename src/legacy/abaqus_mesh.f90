@@ -90,6 +90,7 @@ contains
       type(line_type) :: line
       character(len=:), allocatable :: kind, name
       integer :: values(9), set, n, k, m, digit
+      logical :: reduced
 
       kind = parameter_of(keyword, 'TYPE')
       name = parameter_of(keyword, 'ELSET')
@@ -104,9 +105,9 @@ contains
          end do
          return
       end if
-      if (verify(kind(digit + 1:), 'R') > 0 .or. (n < 6 .and. kind(digit + 1:) == 'R')) &
-         call add_warning(cards%diagnostics, keyword%card, 0, 0, kind//' is taken as element of '// &
-         to_text(n)//' nodes with the full rule')
+      reduced = n > 4 .and. index(kind(digit + 1:), 'R') == 1
+      if (kind(digit + 1:) /= trim(merge('R', ' ', reduced))) call add_warning(cards%diagnostics, keyword%card, 0, 0, &
+         kind//' is taken as element of '//to_text(n)//' nodes with the '//trim(merge('reduced', 'full   ', reduced))//' rule')
       set = 0
       if (name /= '') call open_set(mesh%element_sets, name, keyword%card, set)
       do while (is_data(cards, at, line))
@@ -125,7 +126,7 @@ contains
             call fault_of(cards, keyword, 0, 'an element has too few nodes')
             return
          end if
-         call add_element(cards, line, values(:n + 1), n > 4 .and. kind(digit + 1:) == 'R', mesh)
+         call add_element(cards, line, values(:n + 1), reduced, mesh)
          if (set > 0) call add(mesh%element_sets(set)%list, values(1))
       end do
    end subroutine read_elements

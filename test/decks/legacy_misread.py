@@ -430,6 +430,29 @@ def continued_keywords(program, folder):
     return faults
 
 
+def sections_first(program, folder):
+    """Sections that stand above the materials that they name"""
+    lines = bar('*CLOAD', '15, 2, 7.').split('\n')
+    sections = [line for line in lines if line.startswith('*SOLID SECTION')]
+    first = lines.index('*MATERIAL, NAME=A')
+    moved = lines[:first] + sections + [line for line in lines[first:] if line not in sections]
+    as_they_were, other = (Converted(program, folder, 'bar.inp', '\n'.join(text)) for text in (lines, moved))
+    return as_they_were.faults + other.faults + ([] if other.deck == as_they_were.deck else ['another deck'])
+
+
+def variants(program, folder):
+    """Variants of elements have the rule that their name says: those of CAX8R the reduced one"""
+    faults, decks = [], {}
+    for kind, like, warned in (('CAX8R', 'CAX8R', ''), ('CAX8RH', 'CAX8R', 'reduced'), ('CAX8RT', 'CAX8R', 'reduced'), ('CAX8', 'CAX8', ''),
+                               ('CAX8H', 'CAX8', 'full'), ('CAX4', 'CAX4', ''), ('CAX4R', 'CAX4', 'full'), ('CAX4RH', 'CAX4', 'full')):
+        new = Converted(program, folder, 'variant.inp', scenes.abaqus(kind))
+        decks[kind] = new.deck
+        faults += new.faults + ([] if decks[kind] == decks[like] else [f'{kind} is not {like}'])
+        said = re.findall(r'is taken as element of \d nodes with the (.*) rule', new.said)
+        faults += [] if said == [warned]*bool(warned) else [f'{kind}: {said}']
+    return faults + ([] if decks['CAX8R'] != decks['CAX8'] else ['CAX8R is CAX8'])
+
+
 def tests(program):
     """The tests of this module"""
 
@@ -438,6 +461,6 @@ def tests(program):
 
     return ([test(function.__name__.replace('_', ' '), function) for function in (body_loads, gravity_directions, sets_of_nodes, left_out, parameters, fields, tables, boundaries_anew,
                       radial_force_on_axis, force_of_harmonics, subcases, titles, headings, force_on_axis,
-                      moved_around, quotes, no_name, continued_keywords)]
+                      moved_around, quotes, no_name, continued_keywords, sections_first, variants)]
             + [test(f'new deck, {name}', unreadable, text, words) for name, text, words in UNREADABLE]
             + [test(name, bad, text, ending, place, words) for name, text, ending, place, words in BAD])
