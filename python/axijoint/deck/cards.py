@@ -297,7 +297,8 @@ class Cards:
         shape: shape
         kind: kind; allowed: PATCH, COSINE, TABLE
         values: PATCH: θ1 θ2 [degree], f = 1 between them; COSINE: m θ0, f = cos m(θ − θ0); TABLE: θ f θ f θ f,
-            linear between; if not given: θ0 of COSINE: 0; allowed: θ: −360 … 360; m: 0, 1, …, 9999
+            linear between; further cards of the same number go on; if not given: θ0 of COSINE: 0; allowed: θ:
+            −360 … 360; m: 0, 1, …, 9999
         """
         self._entry("SHAPES", shape, kind, values)
 

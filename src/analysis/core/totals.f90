@@ -155,18 +155,19 @@ contains
 
          type(peak_type) :: here
          real(wp) :: value(0:last), beside(2), bend, vertex
-         integer :: i
+         integer :: i, at
 
          if (place == 0) return
          do i = 0, last
             value(i) = measure(what, total_displacement(amplitude(:, place, :), circles(i)))
-            if (value(i) > here%value) here = peak_type(value(i), place, circles(i)%angle)
+            if (.not. value(i) > here%value + same*abs(here%value)) cycle  ! on the axis all angles are alike
+            here = peak_type(value(i), place, circles(i)%angle)
+            at = i
          end do
          if (here%place == 0) return
-         i = maxloc(value, 1) - 1
-         beside = value([max(i - 1, 0), min(i + 1, last)])
-         if (i == 0) beside(1) = value(merge(1, last - 1, last < n))
-         if (i == last) beside(2) = value(merge(last - 1, 1, last < n))
+         beside = value([max(at - 1, 0), min(at + 1, last)])
+         if (at == 0) beside(1) = value(merge(1, last - 1, last < n))
+         if (at == last) beside(2) = value(merge(last - 1, 1, last < n))
          bend = 2.0_wp*here%value - beside(1) - beside(2)
          vertex = here%value
          if (bend > 0.0_wp) vertex = vertex + (beside(2) - beside(1))**2/(8.0_wp*bend)

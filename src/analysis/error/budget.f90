@@ -100,7 +100,11 @@ contains
       else
          share%remedy = 'elements 0.6 times as large'
       end if
-      if (size(model%ring_loads) > 0) share%remedy = share%remedy//' or, where loads on circles leave it, these spread over faces'
+      if (any(abs(model%mesh%coordinates(1, model%ring_loads%node)) <= 0.0_wp)) then
+         share%remedy = 'forces on the axis spread over faces: under a force at a point displacements have no limit'
+      else if (size(model%ring_loads) > 0) then
+         share%remedy = share%remedy//' or, where loads on circles leave it, these spread over faces'
+      end if
    end function discretization_share
 
    !> Harmonics above M, of the loads and of joints that open and slip

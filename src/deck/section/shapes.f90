@@ -44,7 +44,7 @@ contains
                                  default=0.0_wp), i=1, 6)], &
                     'PATCH: θ1 θ2 [degree], f = 1 between them; COSINE: m θ0, f = cos m(θ − '// &
                     'θ0); '// &
-                    'TABLE: θ f θ f θ f, linear between', blank='θ0 of COSINE: 0', &
+                    'TABLE: θ f θ f θ f, linear between; further cards of the same number go on', blank='θ0 of COSINE: 0', &
                     limits='θ: −360 … 360; m: 0, 1, …, 9999')]
       section%fields(field_number)%required = .true.
    end function shapes_section
