@@ -1,6 +1,7 @@
 !> How many iterations joints and bodies that yield usually take, which nobody knows before
 module axijoint_estimate_iterations
    use axijoint_base_kinds, only : wp
+   use axijoint_model_joint_proportion, only : stiffest
    use axijoint_model_load, only : combination_type, increment_type
    use axijoint_model_model, only : model_type, bodies_yield, can_yield, &
       method_newton, method_anderson, body_transfer
@@ -12,6 +13,8 @@ module axijoint_estimate_iterations
    !> weight, which opens little, and of others; and by ANDERSON
    real(wp), parameter :: axisymmetric_newton = 3.0_wp, usual_newton = 6.0_wp, &
       usual_anderson = 15.0_wp
+   !> k h/E from which on Newton's method takes more of them, and the power that they grow with
+   real(wp), parameter :: stiff = 10.0_wp, growth = 0.2_wp
    !> What the loops of TOTAL and TRANSFER leave falls by a factor of e in so many iterations
    real(wp), parameter :: usual_loop = 5.0_wp
    !> Iterations of an increment of bodies that yield, by methods that learn, and by the loop
@@ -26,14 +29,17 @@ contains
       !> Iterations of each increment; zero for what is usual
       integer, intent(in) :: each
 
+      real(wp) :: more
       integer :: i, k
 
       n = 0.0_wp
       if (.not. (can_yield(model) .or. bodies_yield(model))) return
+      more = 1.0_wp
+      if (model%method == method_newton .and. .not. bodies_yield(model)) more = max(1.0_wp, stiffest(model)/stiff)**growth
       do k = 1, size(model%combinations)
          do i = 1, size(model%increments)
             if (each > 0) n = n + each
-            if (each == 0) n = n + usual(model, model%combinations(k), model%increments(i))
+            if (each == 0) n = n + more*usual(model, model%combinations(k), model%increments(i))
          end do
       end do
    end function n_iterations

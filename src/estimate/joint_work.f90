@@ -7,15 +7,14 @@ module axijoint_estimate_joint_work
    use axijoint_joints_pairs, only : pairs_type, new_pairs
    use axijoint_joints_planes, only : planes_type, new_planes
    use axijoint_model_joint_proportion, only : proportion_type, joint_proportions, side_of, &
-      side_sensible
+      side_sensible, stiffest
    use axijoint_model_model, only : model_type, can_yield_at, method_newton
    implicit none
    private
    public :: joint_work, n_yielding
 
-   !> What an iteration of a loop costs beside one of Newton's method, which multiplies with the
-   !> flexibilities again and again
-   real(wp), parameter :: loop_share = 0.1_wp
+   !> Products with the flexibilities of an iteration of a loop
+   real(wp), parameter :: loop_products = 1.0_wp
    !> Iterations that the estimates of errors take: to settle; on more planes, then with more
    !> harmonics, too; after the corrections by the finer mesh; the paper's loop beside it; where
    !> joints are out of proportion, with others
@@ -24,6 +23,8 @@ module axijoint_estimate_joint_work
    !> Their linear solutions need few digits: products of one of these iterations, over those of an
    !> iteration of an increment
    real(wp), parameter :: rough = 0.4_wp
+   !> Products of an iteration, which grow with the stiffness of joints, k h/E, beside that of bodies: coefficient, power, fewest, most
+   real(wp), parameter :: of_products = 8.0_wp, power = 0.3_wp, fewest_products = 2.0_wp, most_products = 150.0_wp
    !> What sums by few operations take a plane, in modes of products for each halving of the planes
    real(wp), parameter :: of_halving = 3.0_wp
    !> Planes for these, times so many
@@ -47,18 +48,19 @@ contains
       type(planes_type) :: planes
       type(pairs_type) :: pairs
       type(proportion_type), allocatable :: proportions(:)
-      real(wp) :: again, jumps
+      real(wp) :: again, jumps, n_products
       integer :: intervals, k
       logical :: half
 
       work = 0.0_wp
+      n_products = min(most_products, max(fewest_products, of_products*stiffest(model)**power))
       jumps = 3.0_wp*n_yielding(model, structure)
       pairs = new_pairs(pack(structure%joint_points, can_yield_at(model, structure%joint_points%material)))
       planes = new_planes(model%n_planes, structure%modes)
       half = size(planes%place) <= planes%n
       intervals = merge(size(planes%angle) - 1, size(planes%angle)/2, half)
-      call iterate(iterations*merge(1.0_wp, loop_share, model%method == method_newton), 1.0_wp, &
-         intervals, size(structure%modes))
+      call iterate(iterations, merge(1.0_wp, loop_products/n_products, model%method == method_newton), intervals, &
+         size(structure%modes))
       if (.not. estimates) return
       again = to_settle + after_mesh
       if (size(model%increments) == 1) again = again + other_loop
@@ -73,9 +75,10 @@ contains
 
    contains
 
-      !> Add iterations on some planes with some modes
+      !> Add iterations on some planes with some modes: laws, products of Newton's linear solutions, and vectors that these are made
+      !> orthogonal to
       subroutine iterate(n, share, intervals, n_modes)
-         !> Iterations, and how many products each makes beside what is usual
+         !> Iterations, and part of its products that each makes
          real(wp), intent(in) :: n, share
          !> Intervals between planes from 0 to pi, and modes
          integer, intent(in) :: intervals, n_modes
@@ -84,8 +87,9 @@ contains
 
          n_planes = merge(intervals + 1, 2*intervals, half)
          work(laws) = work(laws) + n*jumps*n_planes
-         work(sums) = work(sums) + share*n*jumps*n_planes*modes_of_sums(n_planes, n_modes, intervals)
-         work(flexibility) = work(flexibility) + share*n*(3.0_wp*size(pairs%nodes, 2))**2*n_modes
+         work(sums) = work(sums) + share*n*n_products*jumps*n_planes*modes_of_sums(n_planes, n_modes, intervals)
+         work(flexibility) = work(flexibility) + share*n*n_products*n_modes*((3.0_wp*size(pairs%nodes, 2))**2 &
+            + share*n_products*jumps)
       end subroutine iterate
 
    end function joint_work

@@ -32,11 +32,11 @@ module axijoint_joints_newton_method
    !> Tolerance of the linear solution far from equilibrium, and with joints that are as good as rigid: between, it falls like the
    !> root of their flexibility, for then much of what a solution leaves is soft motions that a state hangs on. The ratio from which
    !> on equilibrium is near, the least tolerance there, and the part of the step's tolerance that is left to it
-   real(wp), parameter :: loose = 3.0e-2_wp, closest = 1.0e-4_wp, near = 1.0e-2_wp, strict = 1.0e-9_wp, part = 0.1_wp
-   !> Tolerance near to equilibrium, over the square of what the last step left of the ratio: while states still change a closer
-   !> solution is of no use, and one that does not change them leaves little (the second choice of Eisenstat and Walker, SIAM J.
+   real(wp), parameter :: loose = 1.0e-2_wp, closest = 1.0e-4_wp, near = 1.0e-2_wp, strict = 1.0e-9_wp, part = 0.1_wp
+   !> Part of the ratio that a step leaves at most if states hardly change any more; while they do, a closer solution than this times
+   !> the square of what the last step left is of no use to the next iterate (the second choice of Eisenstat and Walker, SIAM J.
    !> Sci. Comput. 17, 1996)
-   real(wp), parameter :: forcing = 0.1_wp
+   real(wp), parameter :: settled = 0.1_wp, forcing = 0.1_wp
    !> Where a law that jumps has no state, cohesion fades with opening: first over tensions as large
    !> as it, then over a part of that whenever there is equilibrium, in small steps where these get no
    !> farther, and last. It may be wider where iterations do not get there, but not more
@@ -498,18 +498,19 @@ contains
       !> The iteration
       type(course_type), intent(inout) :: course
 
-      real(wp) :: left
-      logical :: made, moved, falls
+      real(wp) :: exact, left
+      logical :: made, moved, falls, changes
 
       falls = course%watch%best_at == course%watch%k
       associate (bounds => course%bounds)
-         left = min(1.0_wp, ratio/max(tiny(ratio), bounds%far))
+         changes = ratio > settled*bounds%far .and. bounds%far > 0.0_wp
+         left = ratio/max(tiny(ratio), bounds%far)
          bounds%far = ratio
          bounds%tolerance = max(closest, loose*sqrt(very_stiff/max(very_stiff, condensed%proportion)))
-         ! near to equilibrium, so exactly that one step can reach the tolerance, if states no longer change
-         if (ratio < near) then
-            bounds%tolerance = min(bounds%tolerance, &
-               max(strict, part*tolerance/max(tiny(ratio), ratio), forcing*left**2))
+         if (ratio < near) then  ! so exactly that one step can reach the tolerance, unless states still change
+            exact = max(strict, part*tolerance/max(tiny(ratio), ratio))
+            if (changes) exact = max(exact, forcing*left**2)
+            bounds%tolerance = min(bounds%tolerance, exact)
          end if
          bounds%largest = course%watch%largest
          call approach(condensed, scene, .true., course%begun, field, course%residual, moved)

@@ -6,7 +6,7 @@ module axijoint_model_joint_proportion
    use axijoint_model_model, only : model_type
    implicit none
    private
-   public :: proportion_type, joint_proportions, side_of, decisive_direction
+   public :: proportion_type, joint_proportions, side_of, decisive_direction, stiffest
    public :: side_sensible, side_soft, side_stiff
 
    !> Where k h/E is sensible: softer joints give way more than the bodies, stiffer ones are rigid
@@ -78,10 +78,7 @@ contains
 
       logical :: counts(3)
 
-      counts = law%stiffness > 0.0_wp
-      if (law%kind /= law_elastic .and. .not. max(law%cohesion, law%friction) > 0.0_wp) then
-         counts = counts .and. [1, 2, 3] == eta
-      end if
+      counts = counted(law)
       direction = maxloc(proportion%largest, 1, mask=counts)
       if (direction > 0) then
          if (proportion%largest(direction) <= sensible(2)) &
@@ -89,5 +86,35 @@ contains
       end if
       direction = max(1, direction)
    end function decisive_direction
+
+   !> Directions in which the stiffness of a law matters
+   pure function counted(law)
+      !> The law
+      type(joint_law_type), intent(in) :: law
+      !> xi, eta, theta
+      logical :: counted(3)
+
+      counted = law%stiffness > 0.0_wp
+      if (law%kind /= law_elastic .and. .not. max(law%cohesion, law%friction) > 0.0_wp) &
+         counted = counted .and. [1, 2, 3] == eta
+   end function counted
+
+   !> Largest k h/E of joints that can open or slip; zero if there are none
+   pure real(wp) function stiffest(model)
+      !> The job
+      type(model_type), intent(in) :: model
+
+      type(proportion_type), allocatable :: proportions(:)
+      integer :: k
+
+      stiffest = 0.0_wp
+      proportions = joint_proportions(model)
+      do k = 1, size(proportions)
+         associate (law => model%joint_materials(k)%law)
+            if (law%kind == law_elastic .or. proportions(k)%n_joints == 0) cycle
+            stiffest = max(stiffest, maxval(proportions(k)%largest, mask=counted(law)))
+         end associate
+      end do
+   end function stiffest
 
 end module axijoint_model_joint_proportion
