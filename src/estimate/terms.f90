@@ -66,11 +66,11 @@ module axijoint_estimate_terms
       term_type('node_modes', phase_joints, common, .false., &
                 'loads and displacements, node by mode', 1.8e-06_wp), &
       term_type('laws', phase_joints, common, .false., &
-                'laws at points and planes', 1.4e-07_wp), &
+                'laws at points and planes', 1.7e-07_wp), &
       term_type('sums', phase_joints, common, .false., &
-                'sums of harmonics on planes', 6.4e-09_wp), &
+                'sums of harmonics on planes', 5.4e-10_wp), &
       term_type('flexibility', phase_joints, common, .false., &
-                'products with flexibilities', 7.0e-09_wp), &
+                'products with flexibilities', 4.1e-10_wp), &
       term_type('fine_blocks', phase_errors, common, .true., &
                 'stiffness of the mesh half as large', 6.4e-08_wp), &
       term_type('stress_modes', phase_recover, common, .false., &
