@@ -428,7 +428,8 @@ contains
       if (results%tolerance > coarse_tolerance .and. .not. leaves_little(results)) then
          call add(remarks, 'a tolerance of '//to_text(results%tolerance)// &
             trim(merge(' leaves   ', ' may leave', allocated(results%budget)))// &
-            ' joint stresses several per cent wrong (default 1E-6)')
+            trim(merge(' joint stresses    ', ' stresses and loads', size(structure%yielding) > 0))// &
+            ' several per cent wrong (default 1E-6)')
       end if
       if (results%part_error > max(results%tolerance, coarse_tolerance)) then
          call add(remarks, 'forces of '//to_text(results%part_error)// &

@@ -17,7 +17,7 @@ module axijoint_deck_job_deck
    use axijoint_model_strips, only : strip_type
    implicit none
    private
-   public :: deck_type, read_section_type, reader_type, up_to_highest
+   public :: deck_type, read_section_type, reader_type, looked_at
    public :: stage_job, stage_properties, stage_elements, stage_blocks, stage_faces, stage_joints, &
       stage_loads, stage_requests, n_stages
 
@@ -91,16 +91,19 @@ module axijoint_deck_job_deck
 
 contains
 
-   !> All harmonics of a job, whether in use or not: shapes and forces at points are decomposed into these
-   pure function up_to_highest(deck) result(harmonics)
+   !> Harmonics that shapes and forces at points are decomposed into: those in use, and the first of those up to M that are not, as
+   !> loads that have a part in such ones mostly have one in these
+   pure function looked_at(deck) result(harmonics)
       !> The deck
       type(deck_type), intent(in) :: deck
-      !> 0 to M
+      !> The harmonics, ascending
       integer, allocatable :: harmonics(:)
 
+      !> The last that is looked at without being in use
+      integer, parameter :: last = 64
       integer :: m
 
-      harmonics = [(m, m=0, max(0, deck%highest))]
-   end function up_to_highest
+      harmonics = [[(m, m=0, min(last, max(0, deck%highest)))], pack(deck%harmonics, deck%harmonics > last)]
+   end function looked_at
 
 end module axijoint_deck_job_deck

@@ -5,7 +5,7 @@ module axijoint_deck_job_modes
    use axijoint_base_number_map, only : find_number
    use axijoint_base_text, only : to_text
    use axijoint_deck_job_card, only : card_type
-   use axijoint_deck_job_deck, only : up_to_highest
+   use axijoint_deck_job_deck, only : looked_at
    use axijoint_deck_job_load_fields, only : name_harmonic, name_family, name_shape
    use axijoint_deck_load_shares, only : share_type, shares_of, add_truncation
    use axijoint_deck_text_diagnostics, only : add_warning
@@ -50,7 +50,7 @@ contains
          allowed='blank: the program decomposes the shape into both families')
       call find_shape(card, shape, k)
       if (k == 0 .or. .not. is_sound(card)) return
-      shares = shares_of(card%deck%shapes%functions(k), up_to_highest(card%deck))
+      shares = shares_of(card%deck%shapes%functions(k), looked_at(card%deck))
       call note_truncation(card, shape, card%deck%shapes%functions(k))
    end subroutine read_shares
 

@@ -3,7 +3,7 @@ module axijoint_deck_section_point_loads
    use axijoint_base_kinds, only : wp
    use axijoint_base_text, only : to_text
    use axijoint_deck_job_card, only : card_type, cards_of, next_card, find_node
-   use axijoint_deck_job_deck, only : deck_type, read_section_type, stage_loads, up_to_highest
+   use axijoint_deck_job_deck, only : deck_type, read_section_type, stage_loads, looked_at
    use axijoint_deck_load_lists, only : add_ring_load
    use axijoint_deck_load_shares, only : add_truncation
    use axijoint_deck_text_common_fields, only : node_field => node, angle_field => angle, &
@@ -55,7 +55,7 @@ contains
       end do
    end subroutine read_point_loads
 
-   !> A force at one point of a nodal circle, in all harmonics up to M: those that are not in use are left out together
+   !> A force at one point of a nodal circle, in all harmonics: those that are not in use are left out together
    subroutine read_point_load(card)
       !> A card of POINTLOADS
       type(card_type), intent(in) :: card
@@ -72,7 +72,7 @@ contains
       if (node == 0 .or. .not. is_sound(card)) return
       associate (angle => real_of(card, field_angle), force => reals_of(card, field_first, 3))
          if (card%deck%draft%position(1, node) > 0.0_wp) then
-            loads = circle_loads(up_to_highest(card%deck), angle, force)
+            loads = circle_loads(looked_at(card%deck), angle, force)
             left_out = 1.0_wp  ! no series of finite length has a part of a concentrated force
          else
             loads = axis_loads(angle, force)
