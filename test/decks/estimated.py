@@ -617,6 +617,8 @@ def gaps(program, folder):
         summary, _ = solved(program, folder, 'gaps', peg(f'HARMONICS\n{harmonics}\n' + WAVES.format(wave=wave), law=law))
         named = re.findall(r'estimates of errors do not know: (.*)', '\n'.join(summary['messages']))
         faults += expected(f'{harmonics!r}, {wave!r}, {law}: harmonics', wanted, named)
+        if wanted:
+            faults += expected(f'{harmonics!r}: error', None, summary['errors']['harmonics']['displacement'])
     return faults
 
 

@@ -1,14 +1,15 @@
 !> What a run did not model, and why that is exact
 module axijoint_analysis_core_left_out
-   use axijoint_analysis_core_results, only : remark_type
+   use axijoint_analysis_core_results, only : remark_type, results_type
    use axijoint_analysis_core_structure, only : structure_type
    use axijoint_base_text, only : to_text
    use axijoint_fe_mode, only : mode_type, family_symmetric, family_antisymmetric, is_torsion
    use axijoint_joints_planes, only : planes_type, new_planes
    use axijoint_model_model, only : model_type, can_yield_at, bodies_yield
+   use axijoint_model_modes, only : greatest_divisor
    implicit none
    private
-   public :: what_was_left_out
+   public :: what_was_left_out, excited_in_vain
 
 contains
 
@@ -77,6 +78,29 @@ contains
          end if
       end associate
    end function what_was_left_out
+
+   !> Harmonics below the highest that HARMONICS leaves out, though joints that opened or slipped excite them
+   pure function excited_in_vain(model, results) result(harmonics)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> The results, with their path
+      type(results_type), intent(in) :: results
+      !> The harmonics, ascending
+      integer, allocatable :: harmonics(:)
+
+      integer :: step, k
+
+      allocate (harmonics(0))
+      if (.not. any(results%path%n_slip + results%path%n_open > 0)) return
+      step = 0
+      do k = 1, size(results%modes)
+         step = greatest_divisor(step, results%modes(k)%harmonic)
+      end do
+      if (step == 0) return
+      do k = step, maxval(results%modes%harmonic), step
+         if (.not. any(model%harmonics == k)) harmonics = [harmonics, k]
+      end do
+   end function excited_in_vain
 
    !> Whether all multiples of the least harmonic are there, as of 0, 3, 6; of 3, 9, 15 odd ones alone
    pure logical function repeats(harmonics)

@@ -3,6 +3,7 @@ module axijoint_analysis_core_remarks
    use axijoint_analysis_core_motion, only : motion_text
    use axijoint_analysis_core_pins, only : pin_text
    use axijoint_analysis_core_proportion_remarks, only : proportion_remarks
+   use axijoint_analysis_core_left_out, only : excited_in_vain
    use axijoint_analysis_core_results, only : results_type, remark_type, source_names, source_discretization, source_iteration, &
       source_harmonics
    use axijoint_analysis_core_structure, only : structure_type
@@ -18,7 +19,6 @@ module axijoint_analysis_core_remarks
    use axijoint_joints_watch, only : runaway
    use axijoint_model_locking, only : has_nearly_incompressible
    use axijoint_model_model, only : model_type, bodies_yield, left_out_harmonics
-   use axijoint_model_modes, only : greatest_divisor
    use axijoint_model_request, only : goal_joints, goal_names, refinement_type, is_kept, keep_series
    implicit none
    private
@@ -467,18 +467,8 @@ contains
       type(remark_type), allocatable, intent(inout) :: remarks(:)
 
       integer, allocatable :: left_out(:)
-      integer :: step, k
 
-      if (.not. any(results%path%n_slip + results%path%n_open > 0)) return
-      step = 0
-      do k = 1, size(results%modes)
-         step = greatest_divisor(step, results%modes(k)%harmonic)
-      end do
-      if (step == 0) return
-      allocate (left_out(0))
-      do k = step, maxval(results%modes%harmonic), step
-         if (.not. any(model%harmonics == k)) left_out = [left_out, k]
-      end do
+      left_out = excited_in_vain(model, results)
       if (size(left_out) == 0) return
       call add(remarks, 'joints that open or slip act in harmonics that HARMONICS leaves out, too, which estimates of errors '// &
          'do not know: '//list_of(left_out, most_named))

@@ -1,6 +1,7 @@
 !> What each approximation leaves of the error of a run, side by side and in all, and what
 !> would halve it
 module axijoint_analysis_error_budget
+   use axijoint_analysis_core_left_out, only : excited_in_vain
    use axijoint_analysis_core_named_points, only : at_points
    use axijoint_analysis_core_results, only : results_type, error_share_type, &
       source_discretization, source_harmonics, &
@@ -135,6 +136,7 @@ contains
       share%at_points = spread(0.0_wp, 1, size(results%point_size))
       if (size(results%joint_stress) > 0) share%joint_stress = 0.0_wp
       if (yields) call take(results%joint_errors(3), size(results%point_size), share)
+      if (size(excited_in_vain(model, results)) > 0) call forget(share)
       share%load = 0.0_wp
       do k = 1, size(model%truncations)
          associate (cut => model%truncations(k))
@@ -143,9 +145,7 @@ contains
       end do
       if (.not. share%load > 0.0_wp) return
       if (any(abs(case_factor(model%left_out%case)) > 0.0_wp)) then  ! what others tell is no measure of these
-         share%displacement = -1.0_wp
-         share%joint_stress = -1.0_wp
-         share%at_points = -1.0_wp
+         call forget(share)
          return
       end if
       if (share%load >= 1.0_wp) share%remedy = 'loads on parts of the circle in place of those at points'
@@ -153,9 +153,7 @@ contains
       amplitude = [(sqrt(maxval(sum(results%displacement(:, :, k)**2, 1))), k=1, &
          size(results%modes))]
       if (is_cancelled(harmonic, amplitude)) then
-         share%displacement = -1.0_wp
-         share%joint_stress = -1.0_wp
-         share%at_points = -1.0_wp
+         call forget(share)
          return
       end if
       associate (solution => results%discretization)
@@ -181,6 +179,16 @@ contains
          if (tail >= 0.0_wp) share%energy = sqrt(ratio(tail, sum(solution%energy)))
       end associate
    end function harmonics_share
+
+   !> Errors of displacements and joint stress are not known
+   pure subroutine forget(share)
+      !> The share
+      type(error_share_type), intent(inout) :: share
+
+      share%displacement = -1.0_wp
+      share%joint_stress = -1.0_wp
+      share%at_points = -1.0_wp
+   end subroutine forget
 
    !> What harmonics above M would add to the response, by that of the loads which is most; negative if it is not known
    pure real(wp) function largest_tail(model, case_factor, harmonic, amplitude, without) result(tail)
