@@ -4,7 +4,7 @@ module axijoint_legacy_abaqus
    use axijoint_base_kinds, only : wp
    use axijoint_base_number_map, only : find_number
    use axijoint_base_text, only : to_text
-   use axijoint_deck_text_diagnostics, only : add_error
+   use axijoint_deck_text_diagnostics, only : add_error, add_warning
    use axijoint_deck_text_file_bytes, only : end_of_bytes => line_end, &
       next_bytes => next_line
    use axijoint_legacy_abaqus_bodies, only : body_loads_type, open_body_loads, put_body_loads
@@ -17,8 +17,8 @@ module axijoint_legacy_abaqus
    use axijoint_legacy_abaqus_parameters, only : check_parameters, elsewhere, r_and_z
    use axijoint_legacy_cards, only : cards_type
    use axijoint_legacy_list, only : set_type, open_set, find_set
-   use axijoint_legacy_sketch, only : sketch_type, leave_out, part_materials, part_nodes, &
-      part_elements, part_notes
+   use axijoint_legacy_sketch, only : sketch_type, leave_out, part_materials, part_yield, &
+      part_nodes, part_elements, part_notes
    use axijoint_legacy_words, only : put, exact, integers
    implicit none
    private
@@ -28,6 +28,8 @@ module axijoint_legacy_abaqus
    type :: material_type
       !> Young's modulus, Poisson's ratio, density
       real(wp) :: young = 0.0_wp, poisson = 0.0_wp, density = 0.0_wp
+      !> Yield stress, zero of a material that does not yield, and what it gains by a plastic strain of one
+      real(wp) :: strength = 0.0_wp, hardening = 0.0_wp
    end type material_type
 
 contains
@@ -111,6 +113,8 @@ contains
             material = find_set(names, parameter_of(line, 'NAME'))
          case ('ELASTIC', 'DENSITY')
             call read_material(cards, line, at, material, materials, sketch)
+         case ('PLASTIC')
+            call read_plastic(cards, line, at, material, materials, sketch)
          case ('SOLID SECTION')
             call assign_material(cards, line, names, mesh)
             ! its data, a thickness, means nothing here
@@ -265,6 +269,59 @@ contains
       end do
    end subroutine read_material
 
+   !> *PLASTIC of the material that was named last: yield stress and plastic strain a line
+   subroutine read_plastic(cards, line, at, material, materials, sketch)
+      !> The file
+      type(cards_type), intent(inout) :: cards
+      !> The line
+      type(line_type), intent(in) :: line
+      !> Its card; that of its data on return
+      integer, intent(inout) :: at
+      !> The material
+      integer, intent(in) :: material
+      !> All materials
+      type(material_type), intent(inout) :: materials(:)
+      !> Takes what is not translated
+      type(sketch_type), intent(inout) :: sketch
+
+      type(line_type) :: data
+      real(wp) :: strain, stress
+      integer :: n
+
+      if (material == 0) then
+         call fault_of(cards, line, 0, 'no material is named above', '*MATERIAL, NAME=')
+         return
+      end if
+      if (all(parameter_of(line, 'HARDENING') /= [character(len=9) :: '', 'ISOTROPIC'])) then
+         call leave_data(cards, line, at, sketch)
+         return
+      end if
+      n = 0
+      do while (is_data(cards, at, data))
+         n = n + 1
+         stress = real_of(cards, data, 1)
+         strain = real_of(cards, data, 2)
+         if (abs(real_of(cards, data, 3)) > 0.0_wp) call leave_out(sketch, data%card, '*PLASTIC at other temperatures')
+         associate (of => materials(material))
+            if (n == 1) then
+               of%strength = stress
+               if (.not. stress > 0.0_wp .or. abs(strain) > 0.0_wp) call fault_of(cards, data, 0, &
+                  'this is no beginning of yield', 'a yield stress above 0, and a plastic strain of 0')
+            else if (n == 2) then
+               if (.not. (stress >= of%strength .and. strain > 0.0_wp)) then
+                  call fault_of(cards, data, 0, 'this is no hardening', 'no less yield stress, at more plastic strain')
+                  cycle
+               end if
+               of%hardening = (stress - of%strength)/strain
+               call add_warning(cards%diagnostics, data%card, 0, 0, 'hardening goes on beyond this line as up to it')
+            else
+               call leave_out(sketch, data%card, '*PLASTIC beyond its second line')
+            end if
+         end associate
+      end do
+      if (n == 0) call fault_of(cards, line, 0, '*PLASTIC has no values')
+   end subroutine read_plastic
+
    !> *SOLID SECTION: the material of a set of elements
    subroutine assign_material(cards, line, names, mesh)
       !> The file
@@ -343,6 +400,8 @@ contains
          call put(sketch%parts(part_materials), '! '//remark)
          call put(sketch%parts(part_materials), to_text(number)//', '// &
             exact(materials(k)%young)//', '//exact(materials(k)%poisson)//', '//exact(density))
+         if (materials(k)%strength > 0.0_wp) call put(sketch%parts(part_yield), to_text(number)//', MISES, '// &
+            exact(materials(k)%strength)//', , , '//exact(materials(k)%hardening))
       end subroutine put_one
 
    end subroutine put_materials

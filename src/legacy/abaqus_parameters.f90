@@ -67,6 +67,8 @@ contains
          known = [character(len=n_letters) :: 'NAME']
       case ('ELASTIC')
          known = [character(len=n_letters) :: 'TYPE', 'MODULI=LONG TERM']
+      case ('PLASTIC')
+         known = [character(len=n_letters) :: 'HARDENING']
       case ('SOLID SECTION')
          known = [character(len=n_letters) :: 'ELSET', 'MATERIAL']
       case ('BOUNDARY')

@@ -10,17 +10,17 @@ module axijoint_legacy_sketch
    implicit none
    private
    public :: sketch_type, leave_out, write_sketch
-   public :: part_materials, part_nodes, part_elements, part_restraints, part_chains, &
+   public :: part_materials, part_yield, part_nodes, part_elements, part_restraints, part_chains, &
       part_tractions, part_pressures, part_ring_loads, part_gravity, part_rotation, part_moved, &
       part_notes, n_parts
 
    !> Sections, in the order in which they are written, and remarks on groups
-   integer, parameter :: part_materials = 1, part_nodes = 2, part_elements = 3, part_chains = 4, &
-      part_restraints = 5, part_tractions = 6, part_pressures = 7, part_ring_loads = 8, &
-      part_gravity = 9, part_rotation = 10, part_moved = 11, part_notes = 12, n_parts = 12
+   integer, parameter :: part_materials = 1, part_yield = 2, part_nodes = 3, part_elements = 4, part_chains = 5, &
+      part_restraints = 6, part_tractions = 7, part_pressures = 8, part_ring_loads = 9, &
+      part_gravity = 10, part_rotation = 11, part_moved = 12, part_notes = 13, n_parts = 13
    !> Their keywords
-   character(len=*), parameter :: keywords(n_parts) = [character(len=10) :: 'MATERIALS', 'NODES', &
-      'ELEMENTS', 'CHAINS', 'RESTRAINTS', 'TRACTIONS', 'PRESSURES', 'RINGLOADS', 'GRAVITY', &
+   character(len=*), parameter :: keywords(n_parts) = [character(len=10) :: 'MATERIALS', 'YIELD', &
+      'NODES', 'ELEMENTS', 'CHAINS', 'RESTRAINTS', 'TRACTIONS', 'PRESSURES', 'RINGLOADS', 'GRAVITY', &
       'ROTATION', 'MOVEDNODES', '']
 
    !> Lines that follow each other and are not translated

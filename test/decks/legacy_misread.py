@@ -440,6 +440,24 @@ def sections_first(program, folder):
     return as_they_were.faults + other.faults + ([] if other.deck == as_they_were.deck else ['another deck'])
 
 
+def plastic(program, folder):
+    """A bar of Abaqus that yields: the force that draws it by a hundredth is that of uniaxial stress, with and without hardening"""
+    faults = []
+    for rows, slope in ((('1., 0.',), 0.0), (('1., 0.', '1.5, 0.1'), 5.0), (('1., 0.', '1.5, 0.1', '1.6, 0.3'), 5.0)):
+        text = bar('*BOUNDARY', 'TOP, 2, 2, 0.02').replace('1000., 0.', '\n'.join(['1000., 0.', '*PLASTIC', *rows]))
+        new = Converted(program, folder, 'plastic.inp', text)
+        faults += [f'{rows}: {words}: {not told}' for words, told in (('beyond this line as up to it', len(rows) > 1), ('beyond its second line', len(rows) > 2))
+                   if (words in new.said) != told]
+        new.solve()
+        stress = (1.0 + slope*0.01)/(1.0 + slope/1000.0)
+        found = [row['sigma_z'] for row in listing.tables(read_text(os.path.join(folder, 'new.lis')))['stresses, theta = 0']]
+        faults += new.faults + ([] if max(abs(value - stress) for value in found) < 1e-6 else [f'{rows}: {stress}, {found}'])
+    for rows in (('0., 0.',), ('1., 0.01',), ('1., 0.', '0.9, 0.1'), ('1., 0.', '1.1, 0.')):
+        ran = program.run('convert', write(folder, 'bad.inp', bar().replace('1000., 0.', '\n'.join(['1000., 0.', '*PLASTIC', *rows]))), os.path.join(folder, 'bad.dat'))
+        faults += ran.ended_with(2)
+    return faults
+
+
 def variants(program, folder):
     """Variants of elements have the rule that their name says: those of CAX8R the reduced one"""
     faults, decks = [], {}
@@ -461,6 +479,6 @@ def tests(program):
 
     return ([test(function.__name__.replace('_', ' '), function) for function in (body_loads, gravity_directions, sets_of_nodes, left_out, parameters, fields, tables, boundaries_anew,
                       radial_force_on_axis, force_of_harmonics, subcases, titles, headings, force_on_axis,
-                      moved_around, quotes, no_name, continued_keywords, sections_first, variants)]
+                      moved_around, quotes, no_name, continued_keywords, sections_first, variants, plastic)]
             + [test(f'new deck, {name}', unreadable, text, words) for name, text, words in UNREADABLE]
             + [test(name, bad, text, ending, place, words) for name, text, ending, place, words in BAD])

@@ -150,7 +150,7 @@ BAD = (
     ('inp', '\n1, 1, 0, 0.', '\n0, 1, 0, 0.', r':5:1', 'this is no number of a node'),
     ('inp', '*STEP', '*INCLUDE, INPUT=a.inp\n*STEP', r':\d+', r'\*INCLUDE is not read'),
     ('inp', 'BORE, P, 8.', 'BOAR, P, 8.', r':\d+:1-4', 'there is no surface of this name'),
-    ('inp', '*ELASTIC', '*PLASTIC', r':\d+', 'material STEEL has no'),
+    ('inp', '*ELASTIC', '*CONDUCTIVITY', r':\d+', 'material STEEL has no'),
 )
 
 
