@@ -504,13 +504,13 @@ contains
       falls = course%watch%best_at == course%watch%k
       associate (bounds => course%bounds)
          changes = ratio > settled*bounds%far .and. bounds%far > 0.0_wp
-         left = ratio/max(tiny(ratio), bounds%far)
+         left = 0.0_wp
+         if (changes) left = ratio/bounds%far
          bounds%far = ratio
          bounds%tolerance = max(closest, loose*sqrt(very_stiff/max(very_stiff, condensed%proportion)))
          if (ratio < near) then  ! so exactly that one step can reach the tolerance, unless states still change
             exact = max(strict, part*tolerance/max(tiny(ratio), ratio))
-            if (changes) exact = max(exact, forcing*left**2)
-            bounds%tolerance = min(bounds%tolerance, exact)
+            bounds%tolerance = min(bounds%tolerance, max(exact, forcing*left**2))
          end if
          bounds%largest = course%watch%largest
          call approach(condensed, scene, .true., course%begun, field, course%residual, moved)

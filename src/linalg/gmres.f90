@@ -9,6 +9,8 @@ module axijoint_linalg_gmres
 
    !> Vectors of the basis that another is made orthogonal to together: as many as stay at hand between the two products
    integer, parameter :: together = 16
+   !> Vectors that there is room for at first: most solutions take no more
+   integer, parameter :: few = 47
 
    !> A linear operator
    type, abstract :: operator_type
@@ -60,9 +62,10 @@ contains
       if (.not. size_b > 0.0_wp) return
       g = 0.0_wp
       g(1) = size_b
-      allocate (basis(size(b), most + 1), h(most + 1, most))
+      allocate (basis(size(b), min(most, few) + 1), h(most + 1, most))
       basis(:, 1) = b/size_b
       do j = 1, most
+         if (j == size(basis, 2)) call widen(basis, min(most, 2*j) + 1)
          call a%apply(basis(:, j), basis(:, j + 1))
          n_products = j
          call orthogonalize(basis(:, :j), basis(:, j + 1), h(:j + 1, j))
@@ -92,6 +95,20 @@ contains
       end do
       if (n_products > 0) call dgemv('N', size(x), n_products, 1.0_wp, basis, size(x), g, 1, 0.0_wp, x, 1)
    end subroutine gmres
+
+   !> Make room for more vectors of a basis
+   subroutine widen(basis, n)
+      !> The basis
+      real(wp), allocatable, intent(inout) :: basis(:, :)
+      !> How many vectors there is to be room for
+      integer, intent(in) :: n
+
+      real(wp), allocatable :: wider(:, :)
+
+      allocate (wider(size(basis, 1), n))
+      wider(:, :size(basis, 2)) = basis
+      call move_alloc(wider, basis)
+   end subroutine widen
 
    !> Make a vector orthogonal to a basis, a few vectors of it after others, and of length one. What rounding leaves of them
    !> does the solution no harm (Paige, Rozloznik and Strakos, SIAM J. Matrix Anal. Appl. 28, 2006) unless the operator

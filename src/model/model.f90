@@ -241,16 +241,19 @@ contains
       if (size(model%lines) > 0) shows_stress = shows_stress .or. is_kept(model%keep(keep_series), increment, last)
    end function shows_stress
 
-   !> Harmonics that are not in use, though loads have a part in them
-   pure function left_out_harmonics(model) result(harmonics)
+   !> Harmonics that are not in use, though loads of some load cases have a part in them
+   pure function left_out_harmonics(model, acts) result(harmonics)
       !> The job
       type(model_type), intent(in) :: model
+      !> Which load cases count, shape (cases)
+      logical, intent(in) :: acts(:)
       !> The harmonics, ascending, each once
       integer, allocatable :: harmonics(:)
 
       integer :: m
 
-      harmonics = pack([(m, m=0, model%max_harmonic)], [(any(model%left_out%harmonic == m), m=0, model%max_harmonic)])
+      harmonics = pack([(m, m=0, model%max_harmonic)], &
+                       [(any(model%left_out%harmonic == m .and. acts(model%left_out%case)), m=0, model%max_harmonic)])
    end function left_out_harmonics
 
 end module axijoint_model_model

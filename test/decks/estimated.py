@@ -627,6 +627,7 @@ def loaded_gaps(program, folder):
     Equal loads at equal angles have none in between: as many harmonics as they repeat give the same results as all"""
     eight = range(0, 360, 45)
     bolts = 'POINTLOADS\n' + ''.join(f'33,{angle},1.0\n' for angle in eight)
+    sevenths = 'POINTLOADS\n' + ''.join(f'33,{360*k/7:.6f},1.0\n' for k in range(7))
     pads = 'SHAPES\n' + ''.join(f'{k},PATCH,{angle - 5},{angle + 5}\n' for k, angle in enumerate(eight, 1)) + 'PRESSURES\n' + ''.join(
         f'2,,1.0,,,{k}\n' for k in range(1, 9))
     faults, moved = [], {}
@@ -634,8 +635,10 @@ def loaded_gaps(program, folder):
     for name, loads, harmonics, wanted in (
             ('patch', patch + 'PRESSURES\n2,,1.0,,,1\n', '0\n2,4', '1'), ('patch, all', patch + 'PRESSURES\n2,,1.0,,,1\n', '', ''),
             ('warm side', patch + 'TEMPERATURES\n1,,10.0,,,,1\n', '0\n3,4', '1, 2'), ('two forces', 'POINTLOADS\n33,0,1.0\n33,180,1.0\n', '0\n4', '2'),
-            ('bolts', bolts, '0,8,8', ''), ('bolts, all', bolts, '', ''), ('pads', pads, '0,8,8', ''), ('pads, all', pads, '', '')):
-        text = FLUE.format(highest=8 if loads in (bolts, pads) else 4, more=(f'HARMONICS\n{harmonics}\n' if harmonics else '') + loads)
+            ('bolts', bolts, '0,8,8', ''), ('bolts, all', bolts, '', ''), ('pads', pads, '0,8,8', ''), ('pads, all', pads, '', ''),
+            ('angles with six decimals', sevenths, '0,7,7', ''), ('another load case', patch + 'CASE\n1\nPRESSURES\n2,0,1.0\nCASE\n2\nPRESSURES\n2,,1.0,,,1\n'
+             'COMBINE\n1,1,1.0,2,0.0\n', '0\n2,4', '')):
+        text = FLUE.format(highest=8 if loads in (bolts, pads, sevenths) else 4, more=(f'HARMONICS\n{harmonics}\n' if harmonics else '') + loads)
         ran = program.run('run', write(folder, 'gaps.dat', text), '-o', folder)
         summary = json.loads(read_text(os.path.join(folder, 'gaps.json')))
         named = re.findall(r'HARMONICS leaves out, too, .*: (.*)', '\n'.join(summary['messages']))

@@ -77,10 +77,10 @@ contains
          call add(remarks, reduced_hint)
       if (results%converged .and. is_loose(model, results)) call add(remarks, reduced_hint)
       if (size(results%path) > 0) call remark_on_accuracy(model, structure, field, results, remarks)
-      call remark_on_cut_off(model, results, remarks)
+      call remark_on_cut_off(model, abs(history%loading%case_factor) > 0.0_wp, results, remarks)
       if (results%plastic%beside > much_beside) call add(remarks, 'stresses of bodies that yield are sums of harmonics, up to '// &
          percent_text(results%plastic%beside)//' of the largest beside what the criteria admit on their planes '// &
-         '(/yield/stress): more harmonics bring them together (M in CONTROL)')
+         '(/yield/stress)')
       call remark_on_size(model, results, remarks)
       if (results%locks .and. allocated(results%budget)) call add(remarks, 'elements of a material that is nearly '// &
          'incompressible lock, or nearly so beside corners, and finer ones as well: estimates of errors see little of that; '// &
@@ -161,9 +161,11 @@ contains
    end function is_loose
 
    !> A load of which much is above M, where estimates know nothing of what that does: with harmonics 0 and 1 alone
-   subroutine remark_on_cut_off(model, results, remarks)
+   subroutine remark_on_cut_off(model, acts, results, remarks)
       !> The job
       type(model_type), intent(in) :: model
+      !> Which load cases act, shape (cases)
+      logical, intent(in) :: acts(:)
       !> The results, with their errors
       type(results_type), intent(in) :: results
       !> The sentences, to be continued
@@ -171,12 +173,11 @@ contains
 
       !> Part of a load that is worth a word
       real(wp), parameter :: much = 0.05_wp
+      integer, allocatable :: left_out(:)
 
-      if (size(model%left_out) > 0) then
-         call add(remarks, 'loads have parts in harmonics that HARMONICS leaves out, too, whose share of the answer is '// &
-            'not known: '//list_of(left_out_harmonics(model), most_named))
-         return
-      end if
+      left_out = left_out_harmonics(model, acts)
+      if (size(left_out) > 0) call add(remarks, 'loads have parts in harmonics that HARMONICS leaves out, too, whose share of '// &
+         'the answer is not known: '//list_of(left_out, most_named))
       if (.not. allocated(results%budget)) return
       associate (share => results%budget(source_harmonics))
          if (share%displacement >= 0.0_wp .or. .not. share%load > much .or. share%load >= 1.0_wp) return  ! 1: a load at a point

@@ -34,7 +34,7 @@ contains
 
       yields = size(results%path) > 0
       allocate (budget(5))
-      budget(source_discretization) = discretization_share(model, results)
+      budget(source_discretization) = discretization_share(model, case_factor, results)
       budget(source_harmonics) = harmonics_share(model, case_factor, results, yields)
       budget(source_planes) = error_share_type(source=source_planes, remedy='planes: '// &
                                    to_text(nint(1.4142*(model%n_planes - 1)) + 1)//' in CONTROL')
@@ -80,13 +80,18 @@ contains
    end function solver_error
 
    !> Elements too large or of too low an order
-   pure function discretization_share(model, results) result(share)
+   pure function discretization_share(model, case_factor, results) result(share)
       !> The job
       type(model_type), intent(in) :: model
+      !> Factors of its load cases, shape (cases)
+      real(wp), intent(in) :: case_factor(:)
       !> Results
       type(results_type), intent(in) :: results
       !> Their share
       type(error_share_type) :: share
+
+      integer :: k
+      logical :: on_axis, on_circles
 
       share%source = source_discretization
       share%energy = results%discretization%relative
@@ -101,9 +106,19 @@ contains
       else
          share%remedy = 'elements 0.6 times as large'
       end if
-      if (any(abs(model%mesh%coordinates(1, model%ring_loads%node)) <= 0.0_wp)) then
-         share%remedy = 'forces on the axis spread over faces: under a force at a point displacements have no limit'
-      else if (size(model%ring_loads) > 0) then
+      on_axis = .false.
+      on_circles = .false.
+      do k = 1, size(model%ring_loads)
+         associate (load => model%ring_loads(k))
+            if (.not. abs(case_factor(load%case)) > 0.0_wp) cycle
+            on_circles = .true.
+            on_axis = on_axis .or. .not. model%mesh%coordinates(1, load%node) > 0.0_wp
+         end associate
+      end do
+      if (on_axis) then
+         share%remedy = share%remedy//' or, where forces on the axis leave it, under which displacements have no limit, these '// &
+            'spread over faces'
+      else if (on_circles) then
          share%remedy = share%remedy//' or, where loads on circles leave it, these spread over faces'
       end if
    end function discretization_share

@@ -39,6 +39,8 @@ module axijoint_analysis_error_plastic_errors
    real(wp), parameter :: least_told = 5.0e-4_wp
    !> Cosine of the angle between two loads below which one takes back what the other did
    real(wp), parameter :: against = -0.5_wp
+   !> What was on before, over what is on then, that is worth no word if it is taken back
+   real(wp), parameter :: slight = 0.05_wp
    !> Load, over that of the state, by which one found in one step may be off without a word
    real(wp), parameter :: least_other_way = 0.02_wp
 
@@ -133,7 +135,8 @@ contains
             before = loads_of(steps(i - 1)%case_factor)
             added = loads_of(change)
          end associate
-         opposed = opposed .or. cosine(before%right, added%right) < against
+         if (norm2(before%right) > slight*norm2(before%right + added%right)) &
+            opposed = opposed .or. cosine(before%right, added%right) < against
          if (allocated(before%held)) opposed = opposed .or. any(before%held*added%held < 0.0_wp)
       end do
 

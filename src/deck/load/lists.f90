@@ -17,6 +17,8 @@ module axijoint_deck_load_lists
 
    !> Rounding of a sum over the sizes of what is summed
    real(wp), parameter :: rounding = 1.0e-13_wp
+   !> The same of angles as they are written in decks, where no harmonic in use is concerned
+   real(wp), parameter :: little = 1.0e-4_wp
 
    !> A given displacement, and what its card says of it
    type, extends(prescribed_type) :: move_type
@@ -277,10 +279,10 @@ contains
       associate (edges => lists%edge_loads(:lists%n_edge_loads), rings => lists%ring_loads(:lists%n_ring_loads))
          allocate (edge_acts(size(edges)), ring_acts(size(rings)), source=.true.)
          if (lists%truncations%n > 1) then
-            edge_acts = .not. cancel_each_other( &
+            edge_acts = .not. cancel_each_other([(to_nothing(model, edges(k)%mode), k=1, size(edges))], &
                reshape([(edges(k)%case, edges(k)%mode%harmonic, edges(k)%mode%family, edges(k)%nodes(:2), k=1, size(edges))], &
                [5, size(edges)]), reshape([(edges(k)%traction, k=1, size(edges))], [9, size(edges)]))
-            ring_acts = .not. cancel_each_other( &
+            ring_acts = .not. cancel_each_other([(to_nothing(model, rings(k)%mode), k=1, size(rings))], &
                reshape([(rings(k)%case, rings(k)%mode%harmonic, rings(k)%mode%family, rings(k)%node, k=1, size(rings))], &
                [4, size(rings)]), reshape([(rings(k)%force, k=1, size(rings))], [3, size(rings)]))
          end if
@@ -335,12 +337,22 @@ contains
                model%thermal_loads(n)%case = load%case
                model%thermal_loads(n)%body = load%body
                call move_alloc(load%temperature, model%thermal_loads(n)%temperature)
-            else if (maxval(abs(load%temperature)) > rounding*largest) then
+            else if (maxval(abs(load%temperature)) > little*largest) then
                call note(model, load%mode, load%case)
             end if
          end associate
       end do
    end subroutine take_temperatures
+
+   !> What a sum of loads may leave to be nothing, over their sizes: rounding where it would act, little where it does not
+   pure real(wp) function to_nothing(model, mode)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> The mode
+      type(mode_type), intent(in) :: mode
+
+      to_nothing = merge(rounding, little, is_used(model, mode))
+   end function to_nothing
 
    !> Whether the harmonic of a mode is in use
    pure logical function is_used(model, mode)
@@ -368,7 +380,9 @@ contains
 
    !> Which loads of the same place and mode come to nothing but rounding together, as equal ones at equal angles in most harmonics:
    !> what is left of them would need restraints of its own
-   pure function cancel_each_other(keys, values) result(cancel)
+   pure function cancel_each_other(left, keys, values) result(cancel)
+      !> What a sum may leave to be nothing, over the sizes of what is summed, shape (loads)
+      real(wp), intent(in) :: left(:)
       !> Case, mode and place of each load, shape (keys, loads), and its components, shape (components, loads)
       integer, intent(in) :: keys(:, :)
       real(wp), intent(in) :: values(:, :)
@@ -387,7 +401,7 @@ contains
             last = last + 1
          end do
          associate (these => values(:, order(first:last)))
-            cancel(order(first:last)) = last > first .and. all(abs(sum(these, 2)) <= rounding*sum(abs(these), 2))
+            cancel(order(first:last)) = last > first .and. all(abs(sum(these, 2)) <= left(order(first))*sum(abs(these), 2))
          end associate
          first = last + 1
       end do

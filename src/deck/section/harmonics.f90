@@ -1,5 +1,6 @@
 !> HARMONICS: which harmonics are used
 module axijoint_deck_section_harmonics
+   use axijoint_base_kinds, only : wp
    use axijoint_base_text, only : to_text, list_of
    use axijoint_deck_job_card, only : card_type, cards_of, next_card
    use axijoint_deck_job_deck, only : deck_type, read_section_type, stage_loads
@@ -71,8 +72,15 @@ contains
 
       type(card_type) :: card
       integer, allocatable :: harmonics(:)
+      logical :: acts(size(deck%cases%cases))
+      integer :: k
 
-      harmonics = left_out_harmonics(deck%model)
+      if (deck%diagnostics%n_errors > 0) return
+      acts = .false.
+      do k = 1, size(deck%model%combinations)
+         acts = acts .or. abs(deck%model%combinations(k)%factor) > 0.0_wp
+      end do
+      harmonics = left_out_harmonics(deck%model, acts)
       if (size(harmonics) == 0) return
       card = cards_of(deck, keyword_harmonics)
       if (.not. next_card(card)) return
