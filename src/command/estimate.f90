@@ -129,10 +129,11 @@ contains
          error = error_type(exit_deck, render(diagnostics, job%source))
          return
       end if
-      call plan_run(job%model, job%timer, structure, error, no_room=no_room)
+      call plan_run(job%model, job%timer, structure, error, command%options%estimated, no_room, &
+         listed=.true.)
       if (allocated(error)) return
       forecast = forecast_run(job%model, job%source, structure, job%timer, machine, &
-                              command%iterations)
+                              command%iterations, command%options%estimated)
       call add_needs(deck, forecast, machine, needs)
       call show(command, deck_text(deck, job%model, structure), job%model, forecast, machine)
       if (allocated(no_room) .and. .not. (command%counts .or. command%job_lines)) &

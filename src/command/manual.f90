@@ -144,6 +144,7 @@ contains
          [option_type('--study', 'TABLE', 'of the study of this table and the deck (default: '// &
                       'NAME.dat beside it)', takes_file), &
           option_type('--estimates', '', 'of a study with estimates of errors'), &
+          option_type('--no-estimates', '', 'of runs without estimates of errors'), &
           option_type('--part', 'K/N', 'of a part of a study'), &
           option_type('--iterations', 'N', 'iterations an increment (default: what is usual)'), &
           option_type('--slurm', '', '#SBATCH lines for a job script instead: three times the '// &

@@ -48,7 +48,7 @@ module axijoint_estimate_forecast
 contains
 
    !> Plan the equations of a job as a run would, and measure how long that takes
-   subroutine plan_run(model, timer, structure, error, estimated, no_room)
+   subroutine plan_run(model, timer, structure, error, estimated, no_room, listed)
       !> The job
       type(model_type), intent(in) :: model
       !> Takes the time
@@ -61,10 +61,13 @@ contains
       logical, intent(in), optional :: estimated
       !> How a run would end here and now for want of memory; not allocated if it has the room
       type(error_type), allocatable, intent(out), optional :: no_room
+      !> Whether results are listed; as errors are estimated if absent
+      logical, intent(in), optional :: listed
 
       type(progress_type) :: progress
 
       call expect_estimates(model, structure, estimated)
+      if (present(listed)) structure%listed = listed
       call timer%push(phase_assemble)
       call plan_structure(model, structure, progress, error)
       call timer%pop()
@@ -79,7 +82,7 @@ contains
    end subroutine plan_run
 
    !> Forecast a run of a planned job
-   function forecast_run(model, source, structure, timer, machine, each) result(forecast)
+   function forecast_run(model, source, structure, timer, machine, each, estimated) result(forecast)
       !> The job
       type(model_type), intent(in) :: model
       !> Cards of its deck
@@ -92,6 +95,8 @@ contains
       type(machine_type), intent(in) :: machine
       !> Iterations of an increment; zero for what is usual
       integer, intent(in) :: each
+      !> Whether errors are estimated
+      logical, intent(in) :: estimated
       !> The forecast
       type(forecast_type) :: forecast
 
@@ -102,7 +107,7 @@ contains
       forecast%iterations = n_iterations(model, each)
       associate (work => forecast%work)
          work = structure_work(model, structure, machine%product_rate) &
-            + n*(state_work(model, structure, forecast%iterations/n, .true.) &
+            + n*(state_work(model, structure, forecast%iterations/n, estimated, run=.true.) &
                  + volume_work(model, source, structure%modes, structure%joint_points))
          work(beginning) = 1.0_wp
          work(reading) = timer%cpu_seconds(phase_read)

@@ -124,7 +124,7 @@ contains
          work(:, 1) = work(:, 1) + structure_work(model, structure, machine%product_rate)
          work(ordering, 1) = work(ordering, 1) + clock%cpu_seconds(phase_assemble)
          work(:, 2) = work(:, 2) + row_work(model, structure) + &
-            state_work(model, structure, n_iterations(model, each), shared%estimated)
+            state_work(model, structure, n_iterations(model, each), shared%estimated, run=.false.)
          work(reading, 2) = work(reading, 2) + finish - start
          work(rows, 2) = work(rows, 2) + size(model%increments)
          iterations = iterations + n_iterations(model, each)

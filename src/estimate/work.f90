@@ -92,15 +92,15 @@ contains
    end function n_factorings
 
    !> Work of one combination once the structure is there
-   function state_work(model, structure, iterations, judged) result(work)
+   function state_work(model, structure, iterations, judged, run) result(work)
       !> The job
       type(model_type), intent(in) :: model
       !> The structure, planned
       type(structure_type), intent(in) :: structure
       !> Iterations of all increments
       real(wp), intent(in) :: iterations
-      !> Whether errors are estimated
-      logical, intent(in) :: judged
+      !> Whether errors are estimated; whether it is of a run, not a row of a study
+      logical, intent(in) :: judged, run
       !> Counts of all terms
       real(wp) :: work(n_terms)
 
@@ -128,7 +128,7 @@ contains
       associate (mesh => model%mesh, modes => real(size(structure%modes), wp))
          work(solved_entries) = work(solved_entries) + entries*(solutions + merge(steps_down, 0.0_wp, estimates))
          work(node_modes) = n_nodes(mesh)*modes*( &
-            merge(nodes_judged, merge(nodes_last, nodes_of_row, judged), estimates) &
+            merge(nodes_judged, merge(nodes_last, nodes_of_row, judged .or. run), estimates) &
             + nodes_shown*shown + nodes_loaded*(size(model%increments) - 1))
          if (estimates) work(fine_blocks) = modes*sum(fine_nodes_of(mesh%element_size) &
                                                       *blocks_of(mesh%element_size))

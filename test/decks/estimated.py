@@ -1156,6 +1156,8 @@ def left_out(program, folder):
             begin = next(k for k, line in enumerate(lines) if line.startswith('DISPLACEMENT'))
             found.append((summary['increments'], lines[begin:begin + 40]))
         faults += expected(f'{name}: results', found[0], found[1])
+        foretold = [program.run('estimate', deck, *options).out for options in ((), ('--no-estimates',))]
+        faults += expected(f'{name}: errors foretold', [True, False], [bool(re.search(r'^ +errors ', text, re.M)) for text in foretold])
     ran = program.run('run', write(folder, 'goal.dat', read_text(os.path.join(INPUTS, 'first.dat')).replace('CONTROL', 'ERROR\n5.0,DISPL\nCONTROL')), '-o', folder, '--no-estimates')
     return faults + ran.ended_with(2) + expected('words', True, 'ERROR of the deck' in ran.err)
 
