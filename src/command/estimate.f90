@@ -9,7 +9,7 @@ module axijoint_command_estimate
       deck_text, study_text
    use axijoint_command_job_lines, only : needs_type, add_needs, print_job_lines
    use axijoint_command_line, only : command_type
-   use axijoint_command_run, only : print_error
+   use axijoint_command_run, only : print_error, without_goal
    use axijoint_deck_text_diagnostics, only : diagnostics_type, render
    use axijoint_estimate_forecast, only : forecast_type, plan_run, forecast_run
    use axijoint_estimate_machine, only : machine_type, this_machine
@@ -127,6 +127,10 @@ contains
       call read_job(deck, job, diagnostics)
       if (diagnostics%n_errors > 0) then
          error = error_type(exit_deck, render(diagnostics, job%source))
+         return
+      end if
+      if (job%model%error_goal%wanted .and. .not. command%options%estimated) then
+         call fatal_error(error, exit_deck, without_goal)
          return
       end if
       call plan_run(job%model, job%timer, structure, error, command%options%estimated, no_room, &

@@ -264,6 +264,8 @@ contains
          if (size(command%decks) > 1) call fatal_error(error, exit_deck, &
             'a study has one table and one deck; use: '//program_name// &
             ' estimate [DECK] --study TABLE')
+         if (.not. command%options%estimated) call fatal_error(error, exit_deck, &
+            'rows of a study have no estimates of errors without --estimates: --no-estimates is of runs')
          return
       end if
       if (command%name == 'estimate' .and. (command%estimates .or. command%part%n > 0)) &

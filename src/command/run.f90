@@ -29,7 +29,11 @@ module axijoint_command_run
    use omp_lib, only : omp_get_max_threads, omp_get_thread_num, omp_set_num_threads
    implicit none
    private
-   public :: run_decks, print_error, speaks
+   public :: run_decks, print_error, speaks, without_goal
+
+   !> What is wrong with an error target, but no estimates
+   character(len=*), parameter :: without_goal = 'ERROR of the deck asks for a bound of errors, which --no-estimates leaves out'// &
+      new_line('a')//'mend: leave out one of them'
 
 contains
 
@@ -165,8 +169,7 @@ contains
       beside = ''
       call begin(deck, command, job, error)
       if (.not. allocated(error) .and. job%model%error_goal%wanted .and. .not. job%options%estimated) &
-         call fatal_error(error, exit_deck, 'ERROR of the deck asks for a bound of errors, which --no-estimates leaves out'// &
-                          new_line('a')//'mend: leave out one of them')
+         call fatal_error(error, exit_deck, without_goal)
       if (.not. allocated(error)) call check_results(job, command%decks, error)
       call check_stop(error)
       if (.not. allocated(error) .and. speaks(command)) then

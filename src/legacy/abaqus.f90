@@ -111,10 +111,8 @@ contains
             end if
          case ('MATERIAL')
             material = find_set(names, parameter_of(line, 'NAME'))
-         case ('ELASTIC', 'DENSITY')
-            call read_material(cards, line, at, material, materials, sketch)
-         case ('PLASTIC')
-            call read_plastic(cards, line, at, material, materials, sketch)
+         case ('ELASTIC', 'DENSITY', 'PLASTIC')
+            call read_property(cards, line, at, material, materials, sketch)
          case ('SOLID SECTION')
             call assign_material(cards, line, names, mesh)
             ! its data, a thickness, means nothing here
@@ -224,8 +222,8 @@ contains
       end do
    end subroutine leave_data
 
-   !> *ELASTIC and *DENSITY of the material that was named last
-   subroutine read_material(cards, line, at, material, materials, sketch)
+   !> *ELASTIC, *DENSITY or *PLASTIC of the material that was named last
+   subroutine read_property(cards, line, at, material, materials, sketch)
       !> The file
       type(cards_type), intent(inout) :: cards
       !> The keyword
@@ -239,12 +237,30 @@ contains
       !> Takes what is not translated
       type(sketch_type), intent(inout) :: sketch
 
-      type(line_type) :: data
-
       if (material == 0) then
          call fault_of(cards, line, 0, 'no material is named above', '*MATERIAL, NAME=')
-         return
+      else if (line%keyword == 'PLASTIC') then
+         call read_plastic(cards, line, at, materials(material), sketch)
+      else
+         call read_elastic(cards, line, at, materials(material), sketch)
       end if
+   end subroutine read_property
+
+   !> *ELASTIC and *DENSITY
+   subroutine read_elastic(cards, line, at, material, sketch)
+      !> The file
+      type(cards_type), intent(inout) :: cards
+      !> The keyword
+      type(line_type), intent(in) :: line
+      !> Its card; that of its data on return
+      integer, intent(inout) :: at
+      !> The material
+      type(material_type), intent(inout) :: material
+      !> Takes what is not translated
+      type(sketch_type), intent(inout) :: sketch
+
+      type(line_type) :: data
+
       if (line%keyword == 'ELASTIC' .and. index(parameter_of(line, 'TYPE')//'ISO', 'ISO') /= 1) then
          call fault_of(cards, line, field_of(line, 'TYPE'), '*ELASTIC of this type is not translated', &
             'isotropic materials: TYPE=ISOTROPIC, or no TYPE, and E, nu')
@@ -257,30 +273,28 @@ contains
          return
       end if
       if (line%keyword == 'DENSITY') then
-         materials(material)%density = real_of(cards, data, 1)
+         material%density = real_of(cards, data, 1)
       else
-         materials(material)%young = real_of(cards, data, 1)
-         materials(material)%poisson = real_of(cards, data, 2)
+         material%young = real_of(cards, data, 1)
+         material%poisson = real_of(cards, data, 2)
       end if
       at = data%card
       do while (is_data(cards, at, data))
          call leave_out(sketch, data%card, '*'//line%keyword//' of other temperatures than that of '// &
             'its first line')
       end do
-   end subroutine read_material
+   end subroutine read_elastic
 
-   !> *PLASTIC of the material that was named last: yield stress and plastic strain a line
-   subroutine read_plastic(cards, line, at, material, materials, sketch)
+   !> *PLASTIC: yield stress and plastic strain a line
+   subroutine read_plastic(cards, line, at, material, sketch)
       !> The file
       type(cards_type), intent(inout) :: cards
-      !> The line
+      !> The keyword
       type(line_type), intent(in) :: line
       !> Its card; that of its data on return
       integer, intent(inout) :: at
       !> The material
-      integer, intent(in) :: material
-      !> All materials
-      type(material_type), intent(inout) :: materials(:)
+      type(material_type), intent(inout) :: material
       !> Takes what is not translated
       type(sketch_type), intent(inout) :: sketch
 
@@ -288,10 +302,6 @@ contains
       real(wp) :: strain, stress
       integer :: n
 
-      if (material == 0) then
-         call fault_of(cards, line, 0, 'no material is named above', '*MATERIAL, NAME=')
-         return
-      end if
       if (all(parameter_of(line, 'HARDENING') /= [character(len=9) :: '', 'ISOTROPIC'])) then
          call leave_data(cards, line, at, sketch)
          return
@@ -302,22 +312,20 @@ contains
          stress = real_of(cards, data, 1)
          strain = real_of(cards, data, 2)
          if (abs(real_of(cards, data, 3)) > 0.0_wp) call leave_out(sketch, data%card, '*PLASTIC at other temperatures')
-         associate (of => materials(material))
-            if (n == 1) then
-               of%strength = stress
-               if (.not. stress > 0.0_wp .or. abs(strain) > 0.0_wp) call fault_of(cards, data, 0, &
-                  'this is no beginning of yield', 'a yield stress above 0, and a plastic strain of 0')
-            else if (n == 2) then
-               if (.not. (stress >= of%strength .and. strain > 0.0_wp)) then
-                  call fault_of(cards, data, 0, 'this is no hardening', 'no less yield stress, at more plastic strain')
-                  cycle
-               end if
-               of%hardening = (stress - of%strength)/strain
-               call add_warning(cards%diagnostics, data%card, 0, 0, 'hardening goes on beyond this line as up to it')
-            else
-               call leave_out(sketch, data%card, '*PLASTIC beyond its second line')
+         if (n == 1) then
+            material%strength = stress
+            if (.not. stress > 0.0_wp .or. abs(strain) > 0.0_wp) call fault_of(cards, data, 0, &
+               'this is no beginning of yield', 'a yield stress above 0, and a plastic strain of 0')
+         else if (n == 2) then
+            if (.not. (stress >= material%strength .and. strain > 0.0_wp)) then
+               call fault_of(cards, data, 0, 'this is no hardening', 'no less yield stress, at more plastic strain')
+               cycle
             end if
-         end associate
+            material%hardening = (stress - material%strength)/strain
+            call add_warning(cards%diagnostics, data%card, 0, 0, 'hardening goes on beyond this line as up to it')
+         else
+            call leave_out(sketch, data%card, '*PLASTIC beyond its second line')
+         end if
       end do
       if (n == 0) call fault_of(cards, line, 0, '*PLASTIC has no values')
    end subroutine read_plastic

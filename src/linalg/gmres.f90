@@ -9,8 +9,11 @@ module axijoint_linalg_gmres
 
    !> Vectors of the basis that another is made orthogonal to together: as many as stay at hand between the two products
    integer, parameter :: together = 16
-   !> Vectors that there is room for at first: most solutions take no more
-   integer, parameter :: few = 47
+
+   !> Vectors of a basis that lie side by side, shape (size, `together`)
+   type :: block_type
+      real(wp), allocatable :: vectors(:, :)
+   end type block_type
 
    !> A linear operator
    type, abstract :: operator_type
@@ -51,7 +54,9 @@ contains
       !> |b - a x| / |b| reached
       real(wp), intent(out) :: reduction
 
-      real(wp), allocatable :: basis(:, :), h(:, :)  ! the basis, and the small triangle
+      type(block_type) :: basis(most/together + 1)
+      real(wp) :: v(size(b))  ! the next vector
+      real(wp), allocatable :: h(:, :)  ! the small triangle
       real(wp) :: cosine(most), sine(most), g(most + 1), size_b, t
       integer :: j, i
 
@@ -62,13 +67,16 @@ contains
       if (.not. size_b > 0.0_wp) return
       g = 0.0_wp
       g(1) = size_b
-      allocate (basis(size(b), min(most, few) + 1), h(most + 1, most))
-      basis(:, 1) = b/size_b
+      allocate (h(most + 1, most))
+      v = b/size_b
       do j = 1, most
-         if (j == size(basis, 2)) call widen(basis, min(most, 2*j) + 1)
-         call a%apply(basis(:, j), basis(:, j + 1))
+         associate (part => basis((j - 1)/together + 1), place => mod(j - 1, together) + 1)
+            if (place == 1) allocate (part%vectors(size(b), together))
+            part%vectors(:, place) = v
+            call a%apply(part%vectors(:, place), v)
+         end associate
          n_products = j
-         call orthogonalize(basis(:, :j), basis(:, j + 1), h(:j + 1, j))
+         call orthogonalize(basis, j, v, h(:j + 1, j))
          associate (column => h(:j + 1, j))
             do i = 1, j - 1  ! the rotations so far
                t = cosine(i)*column(i) + sine(i)*column(i + 1)
@@ -93,29 +101,19 @@ contains
          g(j) = g(j)/h(j, j)
          g(:j - 1) = g(:j - 1) - g(j)*h(:j - 1, j)
       end do
-      if (n_products > 0) call dgemv('N', size(x), n_products, 1.0_wp, basis, size(x), g, 1, 0.0_wp, x, 1)
+      do j = 1, n_products, together
+         call dgemv('N', size(x), min(together, n_products - j + 1), 1.0_wp, basis((j - 1)/together + 1)%vectors, size(x), &
+            g(j), 1, 1.0_wp, x, 1)
+      end do
    end subroutine gmres
-
-   !> Make room for more vectors of a basis
-   subroutine widen(basis, n)
-      !> The basis
-      real(wp), allocatable, intent(inout) :: basis(:, :)
-      !> How many vectors there is to be room for
-      integer, intent(in) :: n
-
-      real(wp), allocatable :: wider(:, :)
-
-      allocate (wider(size(basis, 1), n))
-      wider(:, :size(basis, 2)) = basis
-      call move_alloc(wider, basis)
-   end subroutine widen
 
    !> Make a vector orthogonal to a basis, a few vectors of it after others, and of length one. What rounding leaves of them
    !> does the solution no harm (Paige, Rozloznik and Strakos, SIAM J. Matrix Anal. Appl. 28, 2006) unless the operator
    !> is next to singular: so once is enough where that leaves enough of the vector, else it is done twice
-   subroutine orthogonalize(basis, v, h)
-      !> The basis
-      real(wp), intent(in), contiguous :: basis(:, :)
+   subroutine orthogonalize(basis, n_vectors, v, h)
+      !> The basis, and how many vectors it has
+      type(block_type), intent(in) :: basis(:)
+      integer, intent(in) :: n_vectors
       !> The vector
       real(wp), intent(inout), contiguous :: v(:)
       !> Its components along the basis, and its length
@@ -124,17 +122,18 @@ contains
       !> The square of what is left, over that before, that is enough
       real(wp), parameter :: enough = 0.1_wp
       real(wp) :: before, left, parts(together)
-      integer :: first, last, n, pass
+      integer :: first, k, n, pass, width
 
       n = size(v)
       h = 0.0_wp
       before = ddot(n, v, 1, v, 1)
       do pass = 1, 2
-         do first = 1, size(basis, 2), together
-            last = min(first + together - 1, size(basis, 2))
-            call dgemv('T', n, last - first + 1, 1.0_wp, basis(:, first:last), n, v, 1, 0.0_wp, parts, 1)
-            call dgemv('N', n, last - first + 1, -1.0_wp, basis(:, first:last), n, parts, 1, 1.0_wp, v, 1)
-            h(first:last) = h(first:last) + parts(:last - first + 1)
+         do k = 1, (n_vectors - 1)/together + 1
+            first = (k - 1)*together + 1
+            width = min(together, n_vectors - first + 1)
+            call dgemv('T', n, width, 1.0_wp, basis(k)%vectors, n, v, 1, 0.0_wp, parts, 1)
+            call dgemv('N', n, width, -1.0_wp, basis(k)%vectors, n, parts, 1, 1.0_wp, v, 1)
+            h(first:first + width - 1) = h(first:first + width - 1) + parts(:width)
          end do
          left = ddot(n, v, 1, v, 1)
          if (left > enough*before) exit

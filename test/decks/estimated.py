@@ -1159,7 +1159,9 @@ def left_out(program, folder):
         foretold = [program.run('estimate', deck, *options).out for options in ((), ('--no-estimates',))]
         faults += expected(f'{name}: errors foretold', [True, False], [bool(re.search(r'^ +errors ', text, re.M)) for text in foretold])
     ran = program.run('run', write(folder, 'goal.dat', read_text(os.path.join(INPUTS, 'first.dat')).replace('CONTROL', 'ERROR\n5.0,DISPL\nCONTROL')), '-o', folder, '--no-estimates')
-    return faults + ran.ended_with(2) + expected('words', True, 'ERROR of the deck' in ran.err)
+    faults += ran.ended_with(2) + expected('words', True, 'ERROR of the deck' in ran.err)
+    ran = program.run('estimate', os.path.join(folder, 'goal.dat'), '--no-estimates')
+    return faults + ran.ended_with(2) + expected('words of a forecast', True, 'ERROR of the deck' in ran.err)
 
 
 def tests(program):

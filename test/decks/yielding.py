@@ -5,15 +5,21 @@ import json
 import math
 import os
 import re
+import subprocess
 
 import listing
-from support import INPUTS, Test, expected, read_text, write
+from support import INPUTS, Test, expected, python_with, read_text, write
 
 # Thick cylinder in plane strain under pressure from inside, Tresca (Hill, The mathematical theory of plasticity, V.2)
 YIELD_STRESS, YOUNG, POISSON, INSIDE, OUTSIDE = 240.0, 2.1e5, 0.3, 1.0, 2.0
 COLLAPSE = YIELD_STRESS*math.log(OUTSIDE/INSIDE)
 # A ring of soil that is turned at its outside: shear modulus, shear strength, height
 SHEAR, STRENGTH, HEIGHT = 100.0, 0.5, 0.3
+# Largest equivalent stress of Mises that criteria admit on their planes
+ADMITTED = '''import h5py, numpy, sys
+s = h5py.File(sys.argv[1])['yield/stress'][...].reshape(-1, 6)
+d = s[:, :3] - s[:, :3].mean(1, keepdims=True)
+print(numpy.sqrt(1.5*(d**2).sum(1) + 3.0*(s[:, 3:]**2).sum(1)).max())'''
 
 
 def run(program, folder, deck, codes=(0,), name='yielding'):
@@ -496,6 +502,10 @@ END
     summary = run(program, folder, deck)
     faults = off('sums beside the criterion', summary['yielding']['stress_beside_criteria'], 0.5*(math.sqrt(2.0) - 1.0), 2e-2)
     faults += expected('remark', True, any('beside what the criteria admit' in text for text in summary['messages']))
+    python = python_with('numpy, h5py')
+    if python:  # what is admitted: the yield stress at most, and reached
+        done = subprocess.run([python, '-c', ADMITTED, os.path.join(folder, 'yielding.h5')], capture_output=True, text=True, check=True)
+        faults += off('admitted', float(done.stdout), 1.0, 1e-6)
     round_bar = run(program, folder, cylinder((1.2,)))
     faults += expected('axisymmetric', True, round_bar['yielding']['stress_beside_criteria'] < 1e-12)
     return faults + expected('no remark', False, any('beside what' in text for text in round_bar['messages']))

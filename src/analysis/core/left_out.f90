@@ -1,4 +1,4 @@
-!> What a run did not model, and why that is exact
+!> What a run did not model, and why that is exact; and what HARMONICS left out that is missing
 module axijoint_analysis_core_left_out
    use axijoint_analysis_core_results, only : remark_type, results_type
    use axijoint_analysis_core_structure, only : structure_type

@@ -1,9 +1,9 @@
 !> Sentences about results that the user should know
 module axijoint_analysis_core_remarks
+   use axijoint_analysis_core_left_out, only : excited_in_vain
    use axijoint_analysis_core_motion, only : motion_text
    use axijoint_analysis_core_pins, only : pin_text
    use axijoint_analysis_core_proportion_remarks, only : proportion_remarks
-   use axijoint_analysis_core_left_out, only : excited_in_vain
    use axijoint_analysis_core_results, only : results_type, remark_type, source_names, source_discretization, source_iteration, &
       source_harmonics
    use axijoint_analysis_core_structure, only : structure_type

@@ -314,13 +314,10 @@ contains
       !> The job, with its harmonics
       type(model_type), intent(inout) :: model
 
-      real(wp) :: largest
+      real(wp), allocatable :: largest(:)
       integer :: k, n
 
-      largest = 0.0_wp
-      do k = 1, size(lists%thermal_loads)
-         largest = max(largest, maxval(abs(lists%thermal_loads(k)%temperature)))
-      end do
+      largest = [(maxval(abs(lists%thermal_loads(k)%temperature)), k=1, size(lists%thermal_loads))]
       n = count([(is_used(model, lists%thermal_loads(k)%mode), k=1, size(lists%thermal_loads))])
       if (n == size(lists%thermal_loads)) then
          call move_alloc(lists%thermal_loads, model%thermal_loads)
@@ -337,7 +334,7 @@ contains
                model%thermal_loads(n)%case = load%case
                model%thermal_loads(n)%body = load%body
                call move_alloc(load%temperature, model%thermal_loads(n)%temperature)
-            else if (maxval(abs(load%temperature)) > little*largest) then
+            else if (largest(k) > little*maxval(largest, mask=lists%thermal_loads%case == load%case)) then
                call note(model, load%mode, load%case)
             end if
          end associate
