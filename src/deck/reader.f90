@@ -5,8 +5,8 @@ module axijoint_deck_reader
    use axijoint_deck_check_elements, only : check_elements
    use axijoint_deck_check_joints, only : check_joints, check_joint_edges
    use axijoint_deck_check_locking, only : warn_of_locking
-   use axijoint_deck_check_mesh, only : snap_to_axis, check_used, check_coincident, check_near, &
-      check_hanging, check_touching
+   use axijoint_deck_check_mesh, only : snap_to_axis, check_used, put_bodies_together, check_coincident, &
+      check_near, check_hanging, check_touching
    use axijoint_deck_check_overlap, only : check_overlap
    use axijoint_deck_check_unused, only : warn_of_unused
    use axijoint_deck_gmsh_faces, only : number_group_faces, lay_group_faces
@@ -313,6 +313,7 @@ contains
          errors_before = diagnostics%n_errors
          call check_edges(draft, edges, diagnostics)
          if (diagnostics%n_errors > errors_before) return
+         call put_bodies_together(draft, edges, diagnostics)
          group = group_places(draft%position(:, :draft%n_nodes), same_place*draft%extent)
          tree = new_point_tree(draft%position(:, :draft%n_nodes))
          call check_coincident(draft, group, diagnostics)

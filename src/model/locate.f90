@@ -7,11 +7,15 @@ module axijoint_model_locate
    use axijoint_model_request, only : line_type, line_point_type
    implicit none
    private
-   public :: locate_points, line_position
+   public :: locate_points, locate_beside, line_position
 
    !> Share of an element's extent by which its box is widened: for rounding, and
    !> for curved sides, which may leave the box of their nodes; and by which a node may be off the middle of a straight side
    real(wp), parameter :: straight_margin = 1.0e-5_wp, curved_margin = 0.25_wp, off_middle = 1.0e-6_wp
+
+   !> Distance from a side, in lengths of its chord, up to which a point outside is meant to lie on it: an outline that curves is
+   !> met by sides of elements but for its share of their sagitta
+   real(wp), parameter :: beside = 0.02_wp
 
 contains
 
@@ -83,6 +87,100 @@ contains
       end subroutine keep
 
    end subroutine locate_points
+
+   !> Put a point that lies just outside the mesh on the nearest side of an element
+   subroutine locate_beside(mesh, position, body, hit, found)
+      !> The mesh
+      type(mesh_type), intent(in) :: mesh
+      !> r and z
+      real(wp), intent(in) :: position(2)
+      !> Body whose elements count; 0: of all
+      integer, intent(in) :: body
+      !> Takes where it is put; its number along a line is left
+      type(line_point_type), intent(inout) :: hit
+      !> Whether a side is near enough
+      logical, intent(out) :: found
+
+      real(wp) :: extent, nearest, distance, place(2), natural(2)
+      integer :: element, side, n
+      logical :: inside
+
+      found = .false.
+      nearest = huge(1.0_wp)
+      do element = 1, n_elements(mesh)
+         if (body > 0 .and. mesh%element_body(element) /= body) cycle
+         n = mesh%element_size(element)
+         associate (x => mesh%coordinates(:, mesh%element_nodes(:n, element)))
+            extent = maxval(maxval(x, 2) - minval(x, 2))
+            if (any(position < minval(x, 2) - curved_margin*extent .or. position > maxval(x, 2) + curved_margin*extent)) cycle
+            do side = 1, n_corners(n)
+               call nearest_on_side(x, side, position, place)
+               distance = norm2(position - place)
+               if (distance >= nearest .or. distance > beside*norm2(x(:, mod(side, n_corners(n)) + 1) - x(:, side))) cycle
+               call find_natural(x, place, natural, inside)
+               if (.not. inside) cycle
+               nearest = distance
+               hit%position = place
+               hit%element = element
+               hit%natural = natural
+               found = .true.
+            end do
+         end associate
+      end do
+   end subroutine locate_beside
+
+   !> The point of a side that is nearest to a point: by steps along the side, then by projection on its tangent
+   pure subroutine nearest_on_side(x, side, position, place)
+      !> r and z of the nodes of the element, shape (2, nodes)
+      real(wp), intent(in) :: x(:, :)
+      !> The side
+      integer, intent(in) :: side
+      !> The point
+      real(wp), intent(in) :: position(2)
+      !> r and z on the side
+      real(wp), intent(out) :: place(2)
+
+      integer, parameter :: n_steps = 16, n_projections = 8
+      real(wp) :: mean(2), half(2), bend(2), slope(2), t, nearest
+      integer :: k, n
+
+      n = n_corners(size(x, 2))
+      associate (a => x(:, side), b => x(:, mod(side, n) + 1))
+         mean = 0.5_wp*(a + b)
+         half = 0.5_wp*(b - a)
+         bend = 0.0_wp
+         if (size(x, 2) > n) then  ! a parabola through three nodes
+            bend = mean - x(:, n + side)
+            mean = x(:, n + side)
+         end if
+      end associate
+      t = 0.0_wp
+      nearest = huge(1.0_wp)
+      do k = 0, n_steps
+         associate (trial => 2.0_wp*real(k, wp)/n_steps - 1.0_wp)
+            if (norm2(at(trial) - position) >= nearest) cycle
+            nearest = norm2(at(trial) - position)
+            t = trial
+         end associate
+      end do
+      do k = 1, n_projections
+         slope = half + 2.0_wp*t*bend
+         t = max(-1.0_wp, min(1.0_wp, t + dot_product(position - at(t), slope)/max(tiny(1.0_wp), dot_product(slope, slope))))
+      end do
+      place = at(t)
+
+   contains
+
+      !> r and z of a point of the side
+      pure function at(t) result(point)
+         !> From -1 to 1
+         real(wp), intent(in) :: t
+         real(wp) :: point(2)
+
+         point = mean + t*half + t**2*bend
+      end function at
+
+   end subroutine nearest_on_side
 
    !> Points of a line in the box around an element
    pure subroutine points_near(mesh, element, line, from, to)

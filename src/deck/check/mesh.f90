@@ -6,20 +6,21 @@ module axijoint_deck_check_mesh
    use axijoint_base_text, only : to_text, count_of
    use axijoint_deck_mesh_draft, only : draft_type, place_text
    use axijoint_deck_mesh_edges, only : edge_table_type, on_outer_edges
-   use axijoint_deck_mesh_places, only : point_tree_type, points_near
+   use axijoint_deck_mesh_places, only : point_tree_type, new_point_tree, points_near, axis_tolerance, same_place
    use axijoint_deck_text_diagnostics, only : diagnostics_type, add_error, add_warning
    use axijoint_fe_shape, only : n_corners
    implicit none
    private
-   public :: snap_to_axis, check_used, check_coincident, check_near, check_hanging, check_touching
+   public :: snap_to_axis, check_used, put_bodies_together, check_coincident, check_near, check_hanging, check_touching
 
-   !> Distance from the axis below which a node is put on it, in extents of the model
-   real(wp), parameter :: axis_tolerance = 1.0e-12_wp
    !> Least distance of two nodes of a body, in lengths of their shortest edge
    real(wp), parameter :: least_distance = 1.0e-3_wp
    !> A node that hangs on an edge is nearer to it than this, in lengths of the shortest
    !> edge of its elements
    real(wp), parameter :: hanging_distance = 1.0e-3_wp
+   !> Nodes of two bodies that are nearer to each other than the first are put at one place; up to the second they are said to
+   !> stand apart. In lengths of the shortest edge there
+   real(wp), parameter :: one_place = 1.0e-6_wp, close_by = 1.0e-3_wp
    !> Room for neighbours of a point
    integer, parameter :: most_near = 64
 
@@ -68,6 +69,86 @@ contains
                         mend='remove it, or correct the elements')
       end do
    end subroutine check_used
+
+   !> Put nodes of bodies that rounding keeps apart at one place, and warn of bodies that stand apart by next to nothing: joints
+   !> are laid where nodes are at one place
+   subroutine put_bodies_together(draft, edges, diagnostics)
+      !> The mesh
+      type(draft_type), intent(inout) :: draft
+      !> Edges
+      type(edge_table_type), intent(in) :: edges
+      !> Messages
+      type(diagnostics_type), intent(inout) :: diagnostics
+
+      type(point_tree_type) :: tree
+      real(wp), allocatable :: shortest(:), farthest(:)
+      integer, allocatable :: outer(:), pairs(:, :), order(:)
+      integer :: i, k, n_found, found(most_near), kind
+      real(wp) :: distance
+
+      associate (body => draft%node_body(:draft%n_nodes))
+         if (draft%n_nodes == 0) return
+         if (all(body == body(1))) return
+         call shortest_edges(draft, edges, shortest)
+         outer = pack([(i, i=1, draft%n_nodes)], on_outer_edges(edges, draft%n_nodes))
+         tree = new_point_tree(draft%position(:, outer))
+         allocate (pairs(4, 0), farthest(0))  ! bodies, 1 of nodes put at one place and 2 of others, nodes
+         order = [(i, i=1, size(outer))]
+         call refine_order(order, body(outer))
+         do i = 1, size(outer)
+            associate (node => outer(order(i)))
+               call points_near(tree, draft%position(:, node), close_by*shortest(node), found, n_found)
+               do k = 1, n_found
+                  associate (other => outer(found(k)))
+                     if (body(other) >= body(node) .or. body(other) == 0) cycle
+                     distance = norm2(draft%position(:, other) - draft%position(:, node))
+                     if (.not. distance > same_place*draft%extent) exit
+                     kind = merge(1, 2, distance <= one_place*shortest(node))
+                     call note([body(other), body(node), kind])
+                     if (kind == 1) draft%position(:, node) = draft%position(:, other)
+                     exit
+                  end associate
+               end do
+            end associate
+         end do
+      end associate
+      do k = 1, size(farthest)
+         if (pairs(3, k) == 1) then
+            call add_warning(diagnostics, 0, 0, 0, count_of(pairs(4, k), 'node')//' of body '//to_text(pairs(2, k))// &
+                             ' put where those of body '//to_text(pairs(1, k))//' are', &
+                             found='distances of up to '//to_text(farthest(k)))
+         else
+            call add_warning(diagnostics, 0, 0, 0, 'bodies '//to_text(pairs(1, k))//' and '//to_text(pairs(2, k))// &
+                             ' stand apart by next to nothing at '//count_of(pairs(4, k), 'node')// &
+                             ': they do not feel each other there', found='distances of up to '//to_text(farthest(k)), &
+                             mend='put the nodes of both at one place, lay joints there, and give their law the gap '// &
+                             '(LAWDETAILS)')
+         end if
+      end do
+
+   contains
+
+      !> Count a node of a pair of bodies
+      subroutine note(pair)
+         !> The bodies, and what becomes of it
+         integer, intent(in) :: pair(3)
+
+         integer :: n, l
+
+         n = 0
+         do l = 1, size(farthest)
+            if (all(pairs(:3, l) == pair)) n = l
+         end do
+         if (n == 0) then
+            pairs = reshape([pairs, pair, 0], [4, size(pairs, 2) + 1])
+            farthest = [farthest, 0.0_wp]
+            n = size(farthest)
+         end if
+         pairs(4, n) = pairs(4, n) + 1
+         farthest(n) = max(farthest(n), distance)
+      end subroutine note
+
+   end subroutine put_bodies_together
 
    !> Report nodes of one body at the same place
    subroutine check_coincident(draft, group, diagnostics)
@@ -270,13 +351,24 @@ contains
       type(diagnostics_type), intent(inout) :: diagnostics
 
       real(wp), allocatable :: shortest(:)
+      logical, allocatable :: corner(:)
       real(wp) :: a(2), side(2), offset(2), length
       integer :: i, k, n_found, found(most_near)
 
       call shortest_edges(draft, edges, shortest)
+      corner = are_corners(edges, draft%n_nodes)
       do i = 1, edges%n
          associate (nodes => edges%nodes(:, i))
             if (edges%twin(i) /= 0 .or. .not. all(draft%node_good(nodes(:2)))) cycle
+            if (is_corner(nodes(3))) then
+               call add_error(diagnostics, draft%element_card(edges%element(i)), 0, 0, &
+                              'node '//to_text(draft%node_label(nodes(3)))//' is in the middle of a side of element '// &
+                              to_text(draft%element_label(edges%element(i)))//', and a corner of another element', &
+                              found=place_text(draft%position(:, nodes(3))), &
+                              allowed='neighbours in one body with the same nodes along their common side', &
+                              mend='give both sides elements of one order, or make them two bodies')
+               cycle
+            end if
             a = draft%position(:, nodes(1))
             side = draft%position(:, nodes(2)) - a
             length = norm2(side)
@@ -307,7 +399,36 @@ contains
             end do
          end associate
       end do
+
+   contains
+
+      !> Whether a node is there, and a corner of an element
+      pure logical function is_corner(node)
+         !> The node, 0 for none
+         integer, intent(in) :: node
+
+         is_corner = .false.
+         if (node > 0) is_corner = corner(node)
+      end function is_corner
+
    end subroutine check_hanging
+
+   !> Whether nodes are corners of elements
+   pure function are_corners(edges, n_nodes) result(corner)
+      !> Edges
+      type(edge_table_type), intent(in) :: edges
+      !> Nodes
+      integer, intent(in) :: n_nodes
+      !> One a node
+      logical, allocatable :: corner(:)
+
+      integer :: i
+
+      allocate (corner(n_nodes), source=.false.)
+      do i = 1, edges%n
+         corner(edges%nodes(:2, i)) = .true.
+      end do
+   end function are_corners
 
    !> Warn of bodies that touch in nodes without a joint between them
    subroutine check_touching(draft, group, diagnostics)

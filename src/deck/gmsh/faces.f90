@@ -252,10 +252,20 @@ contains
       end if
       if (.not. all(passed)) then
          face%good = .false.
-         call field_fault(card, field_named(card, name_group), 'the curve is in several pieces', &
-                          allowed='one line along one body, open or closed', &
-                          mend='make a physical curve of each piece: one more begins at '// &
-                          place_text(draft%position(:, ends(1, findloc(passed, .false., 1)))))
+         associate (other => ends(1, findloc(passed, .false., 1)))
+            if (draft%node_body(other) /= draft%node_body(ends(1, 1))) then
+               call field_fault(card, field_named(card, name_group), 'the curve runs along bodies '// &
+                                to_text(draft%node_body(ends(1, 1)))//' and '//to_text(draft%node_body(other)), &
+                                allowed='one line along one body, open or closed', &
+                                mend='make a physical curve for each body: that of the second begins at '// &
+                                place_text(draft%position(:, other)))
+            else
+               call field_fault(card, field_named(card, name_group), 'the curve is in several pieces', &
+                                allowed='one line along one body, open or closed', &
+                                mend='make a physical curve of each piece: one more begins at '// &
+                                place_text(draft%position(:, other)))
+            end if
+         end associate
          return
       end if
       face%edges = [(outer_edge(draft, edges, find_edge(edges, nodes(i), nodes(i + 1)), nodes(i)), &

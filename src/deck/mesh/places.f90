@@ -4,10 +4,12 @@ module axijoint_deck_mesh_places
    use axijoint_base_sort, only : ascending_order, refine_order
    implicit none
    private
-   public :: group_places, extent_of, point_tree_type, new_point_tree, points_near
+   public :: group_places, extent_of, clear_rounding, point_tree_type, new_point_tree, points_near
 
    !> Distance of points at the same place, in extents of the model
    real(wp), parameter, public :: same_place = 1.0e-9_wp
+   !> Coordinates that are rounding of 0, in the same measure
+   real(wp), parameter, public :: axis_tolerance = 1.0e-12_wp
    !> Points of a part that is not halved
    integer, parameter :: few = 8
 
@@ -35,6 +37,17 @@ contains
       extent = max(maxval(position(1, :)) - minval(position(1, :)), &
                    maxval(position(2, :)) - minval(position(2, :)))
    end function extent_of
+
+   !> Make 0 of coordinates that are rounding of it
+   pure subroutine clear_rounding(position)
+      !> r and z, shape (2, points)
+      real(wp), intent(inout) :: position(:, :)
+
+      real(wp) :: least
+
+      least = axis_tolerance*extent_of(position)
+      where (abs(position) <= least) position = 0.0_wp
+   end subroutine clear_rounding
 
    !> Number points so that those at the same place, and no others, have the
    !> same number

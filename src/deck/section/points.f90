@@ -12,7 +12,7 @@ module axijoint_deck_section_points
    use axijoint_deck_text_field, only : text_field, described
    use axijoint_deck_text_labels, only : check_label
    use axijoint_fe_shape, only : shape_element
-   use axijoint_model_locate, only : locate_points
+   use axijoint_model_locate, only : locate_points, locate_beside
    use axijoint_model_mesh, only : mesh_type
    use axijoint_model_request, only : point_type, line_type, line_point_type
    implicit none
@@ -81,7 +81,9 @@ contains
       type(card_type) :: card
       type(point_type) :: other
       type(line_type) :: line
+      type(line_point_type) :: side
       integer :: k, body, apart
+      logical :: beside
 
       card = cards_of(deck, keyword_points)
       do while (next_card(card))
@@ -111,10 +113,19 @@ contains
                   point%shape = other%shape
                end associate
             end do
-            if (body == 0) &
-               call card_fault(card, 'the point does not lie in '// &
-                               trim(merge('the body', 'the mesh', point%body > 0)), &
-                               allowed='a point in an element, or at its edge')
+            if (body == 0) then
+               call locate_beside(mesh, point%position, point%body, side, beside)
+               if (beside) then
+                  call place_in_element(mesh, side, point)
+                  call add_warning(deck%diagnostics, first_card(card), 0, 0, 'point '//to_text(point%label)// &
+                                   ' lies just outside: it follows the nearest side', &
+                                   found='a distance of '//to_text(norm2(side%position - point%position)))
+               else
+                  call card_fault(card, 'the point does not lie in '// &
+                                  trim(merge('the body', 'the mesh', point%body > 0)), &
+                                  allowed='a point in an element, or at its edge')
+               end if
+            end if
             if (apart > 0 .and. point%body == 0) &
                call add_warning(deck%diagnostics, first_card(card), 0, 0, 'point '//to_text(point%label)// &
                                 ' lies on bodies '//to_text(body)//' and '//to_text(apart)// &

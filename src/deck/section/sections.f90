@@ -12,8 +12,9 @@ module axijoint_deck_section_sections
    use axijoint_deck_text_entry, only : integer_of, reals_of, is_good, card_fault, first_card
    use axijoint_deck_text_field, only : integer_field, described
    use axijoint_deck_text_labels, only : check_label
-   use axijoint_model_locate, only : locate_points, line_position
+   use axijoint_model_locate, only : locate_points, locate_beside, line_position
    use axijoint_model_mesh, only : mesh_type
+   use axijoint_model_request, only : line_type, line_point_type
    implicit none
    private
    public :: sections_section, place_lines, keyword_sections
@@ -101,6 +102,7 @@ contains
          if (.not. is_good(card)) cycle
          associate (line => deck%model%lines(card%entry))
             call locate_points(mesh, line)
+            if (size(line%points) > 0) call add_ends(mesh, line)
             if (allocated(lies)) deallocate (lies)
             allocate (lies(line%n_points), source=.false.)
             lies(line%points%number) = .true.
@@ -123,6 +125,28 @@ contains
          end associate
       end do
    end subroutine place_lines
+
+   !> Put ends of a line that lie just outside the mesh, as on an outline that curves, on the nearest side
+   subroutine add_ends(mesh, line)
+      !> The mesh
+      type(mesh_type), intent(in) :: mesh
+      !> The line, some points of which lie in elements
+      type(line_type), intent(inout) :: line
+
+      type(line_point_type) :: hit
+      logical :: found
+
+      if (line%points(1)%number > 1) then
+         hit%number = 1
+         call locate_beside(mesh, line%first, 0, hit, found)
+         if (found) line%points = [hit, line%points]
+      end if
+      if (line%points(size(line%points))%number < line%n_points) then
+         hit%number = line%n_points
+         call locate_beside(mesh, line%last, 0, hit, found)
+         if (found) line%points = [line%points, hit]
+      end if
+   end subroutine add_ends
 
    !> Smallest and largest coordinate of the mesh
    pure function range_text(mesh, axis) result(text)

@@ -123,17 +123,15 @@ contains
       i = 1
       do k = 1, line%n_points
          write (number, format_point) k
-         associate (place => number//columns(line_position(line, k), narrow))
-            if (.not. holds(i, k)) call file%put(place//"  outside the mesh")
-            do while (holds(i, k))
-               associate (element => line%points(i)%element)
-                  write (solid, format_solid) model%mesh%element_body(element), &
-                     model%materials(model%mesh%element_material(element))%label
-               end associate
-               call file%put(place//solid//columns(values(:, i), width))
-               i = i + 1
-            end do
-         end associate
+         if (.not. holds(i, k)) call file%put(number//columns(line_position(line, k), narrow)//"  outside the mesh")
+         do while (holds(i, k))
+            associate (point => line%points(i))
+               write (solid, format_solid) model%mesh%element_body(point%element), &
+                  model%materials(model%mesh%element_material(point%element))%label
+               call file%put(number//columns(point%position, narrow)//solid//columns(values(:, i), width))
+            end associate
+            i = i + 1
+         end do
       end do
 
    contains
