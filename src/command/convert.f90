@@ -4,6 +4,7 @@ module axijoint_command_convert
    use axijoint_base_error, only : error_type, fatal_error, exit_ok, exit_deck, exit_io
    use axijoint_base_progress, only : tell_below
    use axijoint_base_system, only : path_kind, path_absent, same_file
+   use axijoint_base_text, only : to_text
    use axijoint_command_line, only : command_type
    use axijoint_command_run, only : print_error
    use axijoint_deck_reader, only : read_deck
@@ -34,21 +35,34 @@ contains
 
       type(error_type), allocatable :: error
       character(len=:), allocatable :: text
+      integer :: n_left
 
       exit_code = exit_ok
       associate (old => command%decks(1)%text, new => command%decks(2)%text)
          call check_new(old, new, error)
-         if (.not. allocated(error)) call translate(old, command, text, error)
+         if (.not. allocated(error)) call translate(old, command, text, n_left, error)
          if (.not. allocated(error)) call write_new(new, text, error)
          if (.not. allocated(error)) call check_written(new, text, error)
          if (allocated(error)) then
             call print_error('', error)
             exit_code = error%code
          else
-            write (output_unit, '(a)') new//': written; axijoint run '//new//' solves it'
+            write (output_unit, '(a)') new//': written; '//end_of(n_left)//'axijoint run '//new//' solves it'
          end if
       end associate
    end subroutine convert_old
+
+   !> Words on what the new deck does without
+   pure function end_of(n_left) result(words)
+      !> How many things are not translated
+      integer, intent(in) :: n_left
+      !> The words
+      character(len=:), allocatable :: words
+
+      words = ''
+      if (n_left == 1) words = '1 thing of the old deck is not in it, see the warning; '
+      if (n_left > 1) words = to_text(n_left)//' things of the old deck are not in it, see the warnings; '
+   end function end_of
 
    !> Nothing is overwritten, least of all the old deck
    subroutine check_new(old, new, error)
@@ -75,25 +89,28 @@ contains
    end subroutine check_new
 
    !> Read the old deck and write it anew in memory; what it means here is told
-   subroutine translate(old, command, text, error)
+   subroutine translate(old, command, text, n_left, error)
       !> Path of the old deck
       character(len=*), intent(in) :: old
       !> Formats
       type(command_type), intent(in) :: command
       !> The new deck
       character(len=:), allocatable, intent(out) :: text
+      !> How many things of the old deck are not translated
+      integer, intent(out) :: n_left
       !> Errors of the old deck
       type(error_type), allocatable, intent(out) :: error
 
       type(cards_type) :: cards
       character(len=:), allocatable :: bytes, failure, messages
 
+      n_left = 0
       call read_bytes(old, bytes, failure)
       if (len(failure) > 0) then
          call fatal_error(error, exit_deck, old//': error: '//failure)
          return
       end if
-      call translate_deck(old, bytes, command%options%legacy, cards, text)
+      call translate_deck(old, bytes, command%options%legacy, cards, text, n_left)
       messages = render(cards%diagnostics, cards%source)
       if (cards%diagnostics%n_errors > 0) then
          call fatal_error(error, exit_deck, messages)

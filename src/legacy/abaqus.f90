@@ -4,33 +4,42 @@ module axijoint_legacy_abaqus
    use axijoint_base_kinds, only : wp
    use axijoint_base_number_map, only : find_number
    use axijoint_base_text, only : to_text
-   use axijoint_deck_text_diagnostics, only : add_error, add_warning
-   use axijoint_deck_text_file_bytes, only : end_of_bytes => line_end, &
-      next_bytes => next_line
+   use axijoint_deck_mesh_places, only : clear_rounding
+   use axijoint_deck_text_diagnostics, only : add_error
+   use axijoint_deck_text_file_bytes, only : end_of_bytes => line_end, next_bytes => next_line
    use axijoint_legacy_abaqus_bodies, only : body_loads_type, open_body_loads, put_body_loads
-   use axijoint_legacy_abaqus_lines, only : line_type, next_line, is_data, parameter_of, field_of, &
-      real_of, fault_of, line_keyword, line_data, line_end
-   use axijoint_legacy_abaqus_loads, only : renew_boundary, add_boundary, add_ring_force, &
-      add_distributed, add_faces
+   use axijoint_legacy_abaqus_boundary, only : boundary_type, open_boundary, renew_boundary, add_boundary, put_boundary
+   use axijoint_legacy_abaqus_contact, only : contact_type, open_interaction, read_friction, read_behavior, read_pairs, &
+      read_ties, put_contact, find_bodies
+   use axijoint_legacy_abaqus_lines, only : line_type, next_line, is_data, parameter_of, real_of, fault_of, line_keyword, line_end
+   use axijoint_legacy_abaqus_loads, only : add_ring_force, add_distributed, add_faces
+   use axijoint_legacy_abaqus_materials, only : material_type, read_property, assign_material, put_materials
    use axijoint_legacy_abaqus_mesh, only : abaqus_type, read_nodes, read_elements, read_set, &
-      gather_nodes, read_surface
-   use axijoint_legacy_abaqus_parameters, only : check_parameters, elsewhere, r_and_z
+      gather_nodes, read_surface, number_at, root_of
+   use axijoint_legacy_abaqus_parameters, only : check_parameters, leave_data, elsewhere, r_and_z
    use axijoint_legacy_cards, only : cards_type
    use axijoint_legacy_list, only : set_type, open_set, find_set
-   use axijoint_legacy_sketch, only : sketch_type, leave_out, part_materials, part_yield, &
-      part_nodes, part_elements, part_notes
+   use axijoint_legacy_sketch, only : sketch_type, leave_out, part_nodes, part_elements, part_notes
    use axijoint_legacy_words, only : put, exact, integers
    implicit none
    private
    public :: read_abaqus, looks_like_abaqus
 
-   !> A material
-   type :: material_type
-      !> Young's modulus, Poisson's ratio, density
-      real(wp) :: young = 0.0_wp, poisson = 0.0_wp, density = 0.0_wp
-      !> Yield stress, zero of a material that does not yield, and what it gains by a plastic strain of one
-      real(wp) :: strength = 0.0_wp, hardening = 0.0_wp
-   end type material_type
+   !> What is gathered of a file
+   type :: file_type
+      !> Nodes, elements, sets, surfaces
+      type(abaqus_type) :: mesh
+      !> Materials: their names, what they are, the one that was named last
+      type(set_type), allocatable :: names(:)
+      type(material_type), allocatable :: materials(:)
+      integer :: material = 0
+      !> What is held, what is in contact, what acts on masses
+      type(boundary_type) :: boundary
+      type(contact_type) :: contact
+      type(body_loads_type) :: bodies
+      !> Steps so far, and *BOUNDARY in this one
+      integer :: n_steps = 0, n_boundaries = 0
+   end type file_type
 
 contains
 
@@ -62,97 +71,145 @@ contains
       !> What is made of it
       type(sketch_type), intent(inout) :: sketch
 
-      type(abaqus_type) :: mesh
-      type(body_loads_type) :: bodies
-      type(set_type), allocatable :: names(:)
-      type(material_type), allocatable :: materials(:)
-      type(line_type) :: line, data
-      integer :: at, n_steps, n_boundaries, material
+      type(file_type) :: file
+      type(line_type) :: line
+      integer :: at
 
       sketch%title = ''
-      allocate (mesh%node(cards%source%n_cards), mesh%position(2, cards%source%n_cards))
-      associate (n => cards%source%n_cards)
+      associate (mesh => file%mesh, n => cards%source%n_cards)
+         allocate (mesh%node(n), mesh%position(2, n))
          allocate (mesh%element(n), mesh%nodes(9, n), mesh%size(n), mesh%material(n), source=0)
          allocate (mesh%reduced(n), source=.false.)
-         call open_body_loads(n, bodies)
+         allocate (mesh%node_sets(0), mesh%element_sets(0), mesh%surfaces(0), file%names(0))
+         call open_body_loads(n, file%bodies)
+         call open_boundary(n, file%boundary)
+         call read_mesh(cards, mesh, file%names)
       end associate
-      allocate (mesh%node_sets(0), mesh%element_sets(0), mesh%surfaces(0), names(0))
-      call read_mesh(cards, mesh, names)
-      allocate (materials(size(names)))
+      allocate (file%materials(size(file%names)))
       at = 0
-      n_steps = 0
-      n_boundaries = 0
-      material = 0
-      call next_line(cards, at, line)
-      do while (line%kind /= line_end)
-         if (line%kind /= line_keyword) then
-            call next_line(cards, at, line)
-            cycle
-         end if
-         if (n_steps < merge(1, 2, line%keyword == 'STEP')) call check_parameters(cards, line, sketch)
-         select case (line%keyword)
-         case ('HEADING')
-            call read_heading(cards, at, sketch)
-         case ('NODE', 'ELEMENT')  ! are read already
-         case ('NSET')
-            if (parameter_of(line, 'ELSET') /= '') then
-               call gather_nodes(cards, line, mesh)
-            else
-               call read_set(cards, line, at, 'NSET', mesh%node(:mesh%n_nodes), mesh%node_sets)
-            end if
-         case ('ELSET')
-            call read_set(cards, line, at, 'ELSET', mesh%element(:mesh%n_elements), &
-               mesh%element_sets)
-         case ('SURFACE')
-            if (all(parameter_of(line, 'TYPE') /= [character(len=7) :: '', 'ELEMENT'])) then
-               call leave_data(cards, line, at, sketch)
-            else
-               call read_surface(cards, line, at, mesh)
-            end if
-         case ('MATERIAL')
-            material = find_set(names, parameter_of(line, 'NAME'))
-         case ('ELASTIC', 'DENSITY', 'PLASTIC')
-            call read_property(cards, line, at, material, materials, sketch)
-         case ('SOLID SECTION')
-            call assign_material(cards, line, names, mesh)
-            ! its data, a thickness, means nothing here
-            call next_line(cards, at, line)
-            if (line%kind /= line_data) cycle
-         case ('BOUNDARY')
-            if (n_steps > 1) then
-               call leave_data(cards, line, at, sketch)
-            else
-               call renew_boundary(cards, line, n_steps > 0, n_boundaries, sketch)
-               call add_boundary(cards, line, at, mesh, sketch)
-            end if
-         case ('CLOAD')
-            if (n_steps > 1) then
-               call leave_data(cards, line, at, sketch)
-            else
-               call add_ring_force(cards, line, at, mesh, sketch)
-            end if
-         case ('DLOAD', 'DSLOAD')
-            if (n_steps > 1) then
-               call leave_data(cards, line, at, sketch)
-            else
-               call add_distributed(cards, line, at, mesh, bodies, sketch)
-            end if
-         case ('STEP')
-            n_steps = n_steps + 1
-            if (n_steps > 1) call leave_out(sketch, line%card, '*STEP: only the first is translated')
-         case ('STATIC', 'END STEP')
-         case ('SYSTEM')
-            ! without data it ends what one above began
-            if (is_data(cards, at, data)) call fault_of(cards, line, 0, '*SYSTEM: '//elsewhere, r_and_z)
-         case ('INCLUDE')
-            call fault_of(cards, line, 0, '*INCLUDE is not read', 'the lines of the file itself')
-         case default
-            call leave_data(cards, line, at, sketch)
-         end select
+      do
          call next_line(cards, at, line)
+         if (line%kind == line_end) exit
+         if (line%kind == line_keyword) call read_keyword(cards, line, at, file, sketch)
       end do
-      if (cards%diagnostics%n_errors == 0) call write_mesh(cards, names, materials, mesh, bodies, sketch)
+      if (cards%diagnostics%n_errors > 0) return
+      call put_boundary(file%mesh, file%boundary, sketch)
+      call put_contact(cards, file%mesh, file%contact, file%materials%young, sketch)
+      call write_mesh(cards, file%names, file%materials, file%mesh, file%bodies, sketch)
    end subroutine read_abaqus
+
+   !> Read a keyword with its data
+   subroutine read_keyword(cards, line, at, file, sketch)
+      !> The file
+      type(cards_type), intent(inout) :: cards
+      !> The keyword
+      type(line_type), intent(in) :: line
+      !> Its card; the last of its data on return
+      integer, intent(inout) :: at
+      !> What is gathered of the file
+      type(file_type), intent(inout) :: file
+      !> The new deck
+      type(sketch_type), intent(inout) :: sketch
+
+      type(line_type) :: data
+
+      if (file%n_steps < merge(1, 2, line%keyword == 'STEP')) call check_parameters(cards, line, sketch)
+      select case (line%keyword)
+      case ('HEADING')
+         call read_heading(cards, at, sketch)
+      case ('NSET', 'ELSET', 'SURFACE')
+         call read_group(cards, line, at, file%mesh, sketch)
+      case ('MATERIAL')
+         file%material = find_set(file%names, parameter_of(line, 'NAME'))
+      case ('ELASTIC', 'DENSITY', 'PLASTIC')
+         call read_property(cards, line, at, file%material, file%materials, sketch)
+      case ('SOLID SECTION')  ! its data, a thickness, means nothing here
+         call assign_material(cards, line, file%names, file%mesh)
+      case ('SURFACE INTERACTION')
+         call open_interaction(line, file%contact)
+      case ('FRICTION')
+         call read_friction(cards, line, at, file%contact, sketch)
+      case ('SURFACE BEHAVIOR')
+         call read_behavior(cards, line, at, file%contact, sketch)
+      case ('CONTACT PAIR')
+         call read_pairs(cards, line, at, file%mesh, file%contact)
+      case ('TIE')
+         call read_ties(cards, at, file%mesh, sketch)
+      case ('STEP')
+         file%n_steps = file%n_steps + 1
+         if (file%n_steps > 1) call leave_out(sketch, line%card, '*STEP: only the first is translated')
+      case ('BOUNDARY', 'CLOAD', 'DLOAD', 'DSLOAD')
+         call read_load(cards, line, at, file, sketch)
+      case ('NODE', 'ELEMENT', 'INSTANCE')  ! are read already
+      case ('STATIC', 'END STEP', 'PART', 'END PART', 'ASSEMBLY', 'END ASSEMBLY', 'END INSTANCE')
+      case ('TRANSFORM')
+         call fault_of(cards, line, 0, '*TRANSFORM: components along other directions than r and z are not translated', &
+            'components along r and z')
+      case ('NGEN', 'NFILL', 'NCOPY', 'NMAP', 'ELGEN', 'ELCOPY')
+         call fault_of(cards, line, 0, '*'//line%keyword//': nodes and elements that keywords make are not read', &
+            'all of them on lines of *NODE and *ELEMENT')
+      case ('SYSTEM')
+         ! without data it ends what one above began
+         if (is_data(cards, at, data)) call fault_of(cards, line, 0, '*SYSTEM: '//elsewhere, r_and_z)
+      case ('INCLUDE')
+         call fault_of(cards, line, 0, '*INCLUDE is not read', 'the lines of the file itself')
+      case default
+         call leave_data(cards, line, at, sketch)
+      end select
+   end subroutine read_keyword
+
+   !> *NSET, *ELSET, *SURFACE
+   subroutine read_group(cards, line, at, mesh, sketch)
+      !> The file
+      type(cards_type), intent(inout) :: cards
+      !> The keyword
+      type(line_type), intent(in) :: line
+      !> Its card; the last of its data on return
+      integer, intent(inout) :: at
+      !> The mesh
+      type(abaqus_type), intent(inout) :: mesh
+      !> Takes what is not translated
+      type(sketch_type), intent(inout) :: sketch
+
+      if (line%keyword == 'ELSET') then
+         call read_set(cards, line, at, 'ELSET', mesh%element(:mesh%n_elements), mesh%element_sets)
+      else if (line%keyword == 'SURFACE') then
+         if (all(parameter_of(line, 'TYPE') /= [character(len=7) :: '', 'ELEMENT'])) then
+            call leave_data(cards, line, at, sketch)
+         else
+            call read_surface(cards, line, at, mesh)
+         end if
+      else if (parameter_of(line, 'ELSET') /= '') then
+         call gather_nodes(cards, line, mesh)
+      else
+         call read_set(cards, line, at, 'NSET', mesh%node(:mesh%n_nodes), mesh%node_sets)
+      end if
+   end subroutine read_group
+
+   !> What acts, or is held, before the steps and in the first of them
+   subroutine read_load(cards, line, at, file, sketch)
+      !> The file
+      type(cards_type), intent(inout) :: cards
+      !> The keyword
+      type(line_type), intent(in) :: line
+      !> Its card; the last of its data on return
+      integer, intent(inout) :: at
+      !> What is gathered of the file
+      type(file_type), intent(inout) :: file
+      !> The new deck
+      type(sketch_type), intent(inout) :: sketch
+
+      if (file%n_steps > 1) then
+         call leave_data(cards, line, at, sketch)
+      else if (line%keyword == 'BOUNDARY') then
+         call renew_boundary(cards, line, file%n_steps > 0, file%n_boundaries, file%boundary)
+         call add_boundary(cards, line, at, file%mesh, file%boundary, sketch)
+      else if (line%keyword == 'CLOAD') then
+         call add_ring_force(cards, line, at, file%mesh, sketch)
+      else
+         call add_distributed(cards, line, at, file%mesh, file%bodies, sketch)
+      end if
+   end subroutine read_load
 
    !> *HEADING: the title, and lines that become remarks
    subroutine read_heading(cards, at, sketch)
@@ -184,235 +241,60 @@ contains
       !> Takes the names
       type(set_type), allocatable, intent(inout) :: names(:)
 
-      type(line_type) :: line
-      integer :: at, material
+      type(line_type) :: line, data
+      real(wp) :: shift(2), across
+      integer :: at, material, n_instances, k
 
       at = 0
+      n_instances = 0
+      shift = 0.0_wp
       do
          call next_line(cards, at, line)
          if (line%kind == line_end) exit
          if (line%kind /= line_keyword) cycle
-         if (line%keyword == 'NODE') call read_nodes(cards, line, at, mesh)
-         if (line%keyword == 'ELEMENT') call read_elements(cards, line, at, mesh)
-         if (line%keyword == 'MATERIAL') call open_set(names, parameter_of(line, 'NAME'), line%card, material)
+         select case (line%keyword)
+         case ('NODE')
+            call read_nodes(cards, line, at, mesh)
+         case ('ELEMENT')
+            call read_elements(cards, line, at, mesh)
+         case ('MATERIAL')
+            call open_set(names, parameter_of(line, 'NAME'), line%card, material)
+         case ('INSTANCE')
+            n_instances = n_instances + 1
+            if (.not. is_data(cards, at, data)) cycle
+            shift = [real_of(cards, data, 1), real_of(cards, data, 2)]
+            across = real_of(cards, data, 3)
+            if (n_instances > 1 .or. abs(across) > 0.0_wp) call fault_of(cards, data, 0, &
+               'an instance that is moved is not translated', 'one instance, moved along r and z alone; or nodes where they are')
+            if (is_data(cards, at, data)) call fault_of(cards, data, 0, 'an instance that is turned is not translated', &
+               'nodes where they are')
+         end select
       end do
+      if (n_instances > 1 .and. any(abs(shift) > 0.0_wp)) call add_error(cards%diagnostics, 0, 0, 0, &
+         'one of several instances is moved', allowed='nodes where they are')
+      do k = 1, mesh%n_nodes
+         mesh%position(:, k) = mesh%position(:, k) + shift
+      end do
+      call clear_rounding(mesh%position(:, :mesh%n_nodes))
+      call find_used(mesh)
+      mesh%tied_to = [(k, k=1, mesh%n_nodes)]
    end subroutine read_mesh
 
-   !> Note that a keyword and its data are not translated
-   subroutine leave_data(cards, line, at, sketch)
-      !> The file
-      type(cards_type), intent(in) :: cards
-      !> The keyword
-      type(line_type), intent(in) :: line
-      !> Its card; the last of its data on return
-      integer, intent(inout) :: at
-      !> Takes the note
-      type(sketch_type), intent(inout) :: sketch
-
-      type(line_type) :: data
-      integer :: next
-
-      call leave_out(sketch, line%card, '*'//line%keyword)
-      next = at
-      do
-         call next_line(cards, next, data)
-         if (data%kind /= line_data) exit
-         at = next
-         call leave_out(sketch, at, '*'//line%keyword)
-      end do
-   end subroutine leave_data
-
-   !> *ELASTIC, *DENSITY or *PLASTIC of the material that was named last
-   subroutine read_property(cards, line, at, material, materials, sketch)
-      !> The file
-      type(cards_type), intent(inout) :: cards
-      !> The keyword
-      type(line_type), intent(in) :: line
-      !> Its card; that of its data on return
-      integer, intent(inout) :: at
-      !> The material
-      integer, intent(in) :: material
-      !> All materials
-      type(material_type), intent(inout) :: materials(:)
-      !> Takes what is not translated
-      type(sketch_type), intent(inout) :: sketch
-
-      if (material == 0) then
-         call fault_of(cards, line, 0, 'no material is named above', '*MATERIAL, NAME=')
-      else if (line%keyword == 'PLASTIC') then
-         call read_plastic(cards, line, at, materials(material), sketch)
-      else
-         call read_elastic(cards, line, at, materials(material), sketch)
-      end if
-   end subroutine read_property
-
-   !> *ELASTIC and *DENSITY
-   subroutine read_elastic(cards, line, at, material, sketch)
-      !> The file
-      type(cards_type), intent(inout) :: cards
-      !> The keyword
-      type(line_type), intent(in) :: line
-      !> Its card; that of its data on return
-      integer, intent(inout) :: at
-      !> The material
-      type(material_type), intent(inout) :: material
-      !> Takes what is not translated
-      type(sketch_type), intent(inout) :: sketch
-
-      type(line_type) :: data
-
-      if (line%keyword == 'ELASTIC' .and. index(parameter_of(line, 'TYPE')//'ISO', 'ISO') /= 1) then
-         call fault_of(cards, line, field_of(line, 'TYPE'), '*ELASTIC of this type is not translated', &
-            'isotropic materials: TYPE=ISOTROPIC, or no TYPE, and E, nu')
-         return
-      end if
-      call next_line(cards, at, data)
-      if (data%kind /= line_data) then
-         call fault_of(cards, line, 0, '*'//line%keyword//' has no values')
-         at = at - 1
-         return
-      end if
-      if (line%keyword == 'DENSITY') then
-         material%density = real_of(cards, data, 1)
-      else
-         material%young = real_of(cards, data, 1)
-         material%poisson = real_of(cards, data, 2)
-      end if
-      at = data%card
-      do while (is_data(cards, at, data))
-         call leave_out(sketch, data%card, '*'//line%keyword//' of other temperatures than that of '// &
-            'its first line')
-      end do
-   end subroutine read_elastic
-
-   !> *PLASTIC: yield stress and plastic strain a line
-   subroutine read_plastic(cards, line, at, material, sketch)
-      !> The file
-      type(cards_type), intent(inout) :: cards
-      !> The keyword
-      type(line_type), intent(in) :: line
-      !> Its card; that of its data on return
-      integer, intent(inout) :: at
-      !> The material
-      type(material_type), intent(inout) :: material
-      !> Takes what is not translated
-      type(sketch_type), intent(inout) :: sketch
-
-      type(line_type) :: data
-      real(wp) :: strain, stress
-      integer :: n
-
-      if (all(parameter_of(line, 'HARDENING') /= [character(len=9) :: '', 'ISOTROPIC'])) then
-         call leave_data(cards, line, at, sketch)
-         return
-      end if
-      n = 0
-      do while (is_data(cards, at, data))
-         n = n + 1
-         stress = real_of(cards, data, 1)
-         strain = real_of(cards, data, 2)
-         if (abs(real_of(cards, data, 3)) > 0.0_wp) call leave_out(sketch, data%card, '*PLASTIC at other temperatures')
-         if (n == 1) then
-            material%strength = stress
-            if (.not. stress > 0.0_wp .or. abs(strain) > 0.0_wp) call fault_of(cards, data, 0, &
-               'this is no beginning of yield', 'a yield stress above 0, and a plastic strain of 0')
-         else if (n == 2) then
-            if (.not. (stress >= material%strength .and. strain > 0.0_wp)) then
-               call fault_of(cards, data, 0, 'this is no hardening', 'no less yield stress, at more plastic strain')
-               cycle
-            end if
-            material%hardening = (stress - material%strength)/strain
-            call add_warning(cards%diagnostics, data%card, 0, 0, 'hardening goes on beyond this line as up to it')
-         else
-            call leave_out(sketch, data%card, '*PLASTIC beyond its second line')
-         end if
-      end do
-      if (n == 0) call fault_of(cards, line, 0, '*PLASTIC has no values')
-   end subroutine read_plastic
-
-   !> *SOLID SECTION: the material of a set of elements
-   subroutine assign_material(cards, line, names, mesh)
-      !> The file
-      type(cards_type), intent(inout) :: cards
-      !> The keyword
-      type(line_type), intent(in) :: line
-      !> Names of the materials
-      type(set_type), intent(in), allocatable :: names(:)
+   !> Find which nodes elements have
+   subroutine find_used(mesh)
       !> The mesh
       type(abaqus_type), intent(inout) :: mesh
 
-      integer :: set, material, k, element
+      integer :: k, i, node
 
-      set = find_set(mesh%element_sets, parameter_of(line, 'ELSET'))
-      material = find_set(names, parameter_of(line, 'MATERIAL'))
-      if (set == 0) call fault_of(cards, line, 0, 'there is no set '//parameter_of(line, 'ELSET'), &
-         'sets that are above')
-      if (material == 0) call fault_of(cards, line, 0, 'there is no material '// &
-         parameter_of(line, 'MATERIAL'), 'a name of *MATERIAL')
-      if (set == 0 .or. material == 0) return
-      do k = 1, mesh%element_sets(set)%list%n
-         element = find_number(mesh%element_map, mesh%element_sets(set)%list%value(k))
-         if (element > 0) mesh%material(element) = material
+      allocate (mesh%used(mesh%n_nodes), source=.false.)
+      do k = 1, mesh%n_elements
+         do i = 1, mesh%size(k)
+            node = find_number(mesh%node_map, mesh%nodes(i, k))
+            if (node > 0) mesh%used(node) = .true.
+         end do
       end do
-   end subroutine assign_material
-
-   !> Cards of materials. Here gravity and rotation act on all elements: those that are spared get
-   !> materials of their own without density, which are numbered behind the others
-   subroutine put_materials(cards, names, materials, mesh, weightless, sketch)
-      !> The file
-      type(cards_type), intent(inout) :: cards
-      !> Names of the materials, and what they are
-      type(set_type), intent(in), allocatable :: names(:)
-      type(material_type), intent(in) :: materials(:)
-      !> The mesh
-      type(abaqus_type), intent(in) :: mesh
-      !> Which elements are spared
-      logical, intent(in) :: weightless(:)
-      !> Takes the cards
-      type(sketch_type), intent(inout) :: sketch
-
-      integer :: k
-
-      do k = 1, size(materials)
-         if (.not. materials(k)%young > 0.0_wp) call add_error(cards%diagnostics, names(k)%card, &
-            0, 0, 'material '//names(k)%name//' has no *ELASTIC', allowed='E > 0')
-         if (.not. (any(spared(k)) .and. all(spared(k) .or. mesh%material(:size(weightless)) /= k))) &
-            call put_one(k, materials(k)%density, names(k)%name)
-      end do
-      do k = 1, size(materials)
-         if (any(spared(k))) call put_one(size(materials) + k, 0.0_wp, names(k)%name// &
-            ' of elements on which neither gravity nor rotation acts: without density')
-      end do
-
-   contains
-
-      !> Elements of a material that are spared
-      function spared(material)
-         !> The material
-         integer, intent(in) :: material
-         !> Whether an element is
-         logical :: spared(size(weightless))
-
-         spared = weightless .and. mesh%material(:size(weightless)) == material
-      end function spared
-
-      !> Card of a material
-      subroutine put_one(number, density, remark)
-         !> Its number
-         integer, intent(in) :: number
-         !> Its density
-         real(wp), intent(in) :: density
-         !> What it is
-         character(len=*), intent(in) :: remark
-
-         call put(sketch%parts(part_materials), '! '//remark)
-         call put(sketch%parts(part_materials), to_text(number)//', '// &
-            exact(materials(k)%young)//', '//exact(materials(k)%poisson)//', '//exact(density))
-         if (materials(k)%strength > 0.0_wp) call put(sketch%parts(part_yield), to_text(number)//', MISES, '// &
-            exact(materials(k)%strength)//', , , '//exact(materials(k)%hardening))
-      end subroutine put_one
-
-   end subroutine put_materials
+   end subroutine find_used
 
    !> Cards of mesh, materials and surfaces, remarks on sets
    subroutine write_mesh(cards, names, materials, mesh, bodies, sketch)
@@ -432,24 +314,29 @@ contains
       integer, parameter :: order(8, 4) = reshape([1, 2, 3, 0, 0, 0, 0, 0, 1, 2, 3, 4, 0, 0, 0, 0, &
          1, 4, 2, 5, 3, 6, 0, 0, 1, 5, 2, 6, 3, 7, 4, 8], [8, 4])
       logical :: weightless(mesh%n_elements)
-      integer :: k, n, kind
+      integer, allocatable :: body(:)
+      integer :: k, i, n, kind
 
       call put_body_loads(cards, mesh, bodies, sketch, weightless)
       call put_materials(cards, names, materials, mesh, weightless, sketch)
       do k = 1, mesh%n_nodes
+         if (.not. mesh%used(k) .or. root_of(mesh, k) /= k) cycle
          call put(sketch%parts(part_nodes), to_text(mesh%node(k))//', '// &
             exact(mesh%position(1, k))//', '//exact(mesh%position(2, k)))
       end do
       if (mesh%n_elements == 0) call add_error(cards%diagnostics, cards%source%n_cards, 0, 0, &
          'there are no elements', allowed='*ELEMENT, TYPE=CAX4, CAX6, CAX8, ...')
+      n = count(mesh%material(:mesh%n_elements) == 0)
+      if (n > 0) call add_error(cards%diagnostics, cards%source%n_cards, 0, 0, 'element '// &
+         to_text(mesh%element(findloc(mesh%material(:mesh%n_elements), 0, 1)))//' has no material'// &
+         others_too(n), allowed='*SOLID SECTION')
+      call find_bodies(mesh, body)
       do k = 1, mesh%n_elements
-         if (mesh%material(k) == 0) call add_error(cards%diagnostics, cards%source%n_cards, 0, 0, &
-            'element '//to_text(mesh%element(k))//' has no material', allowed='*SOLID SECTION')
          n = mesh%size(k)
          kind = findloc([3, 4, 6, 8], n, 1)
          call put(sketch%parts(part_elements), to_text(mesh%element(k))//', '// &
-            to_text(mesh%material(k) + merge(size(materials), 0, weightless(k)))//', 1'// &
-            integers(mesh%nodes(order(:n, kind), k)))
+            to_text(mesh%material(k) + merge(size(materials), 0, weightless(k)))//', '//to_text(body(k))// &
+            integers([(number_at(mesh, mesh%nodes(order(i, kind), k)), i=1, n)]))
       end do
       if (any(mesh%reduced(:mesh%n_elements))) sketch%order_quadratic = 2
       if (any(mesh%reduced(:mesh%n_elements)) .and. any(mesh%size(:mesh%n_elements) > 4 .and. &
@@ -463,8 +350,23 @@ contains
          call note('element set', mesh%element_sets(k))
       end do
       call add_faces(mesh, sketch)
+      if (any(.not. mesh%used)) call put(sketch%parts(part_notes), '! nodes that no element has are left out: '// &
+         to_text(count(.not. mesh%used)))
+      if (any(mesh%tied_to /= [(k, k=1, mesh%n_nodes)])) call put(sketch%parts(part_notes), &
+         '! nodes that are tied have the number of those that they are tied to')
 
    contains
+
+      !> Words on elements that are as one
+      function others_too(n) result(words)
+         !> How many they are
+         integer, intent(in) :: n
+         !> The words
+         character(len=:), allocatable :: words
+
+         words = ''
+         if (n > 1) words = ', nor have '//to_text(n - 1)//' others'
+      end function others_too
 
       !> Remark on a set
       subroutine note(what, set)

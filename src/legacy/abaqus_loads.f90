@@ -1,151 +1,24 @@
-!> What acts on a mesh of Abaqus or CalculiX: held nodes, forces, pressures, gravity
+!> What acts on a mesh of Abaqus or CalculiX: forces, pressures, gravity
 module axijoint_legacy_abaqus_loads
    use axijoint_base_kinds, only : wp, pi
    use axijoint_base_number_map, only : find_number
    use axijoint_base_text, only : to_text, upper
-   use axijoint_deck_text_diagnostics, only : add_warning
    use axijoint_legacy_abaqus_bodies, only : body_loads_type, add_body_gravity, add_body_rotation
-   use axijoint_legacy_abaqus_lines, only : line_type, is_data, field_text, name_in, integer_of, real_of, &
-      fault_of, parameter_of, has_parameter
-   use axijoint_legacy_abaqus_mesh, only : abaqus_type, members, side_nodes, is_side
+   use axijoint_legacy_abaqus_lines, only : line_type, is_data, field_text, name_in, integer_of, real_of, fault_of
+   use axijoint_legacy_abaqus_mesh, only : abaqus_type, members, side_nodes, is_side, index_of
+   use axijoint_legacy_abaqus_parameters, only : reserve
    use axijoint_legacy_cards, only : cards_type
    use axijoint_legacy_list, only : list_type
-   use axijoint_legacy_sketch, only : sketch_type, leave_out, part_chains, part_pressures, &
-      part_restraints, part_moved, part_ring_loads
+   use axijoint_legacy_sketch, only : sketch_type, leave_out, part_chains, part_pressures, part_ring_loads
    use axijoint_legacy_words, only : put, exact
    implicit none
    private
-   public :: renew_boundary, add_boundary, add_ring_force, add_distributed, add_faces
+   public :: add_ring_force, add_distributed, add_faces
 
    !> Faces of pressures on single elements have numbers from here on
    integer, parameter :: first_side = 50001
 
 contains
-
-   !> OP=NEW on the first *BOUNDARY of a step removes what is above; on later ones it means nothing
-   subroutine renew_boundary(cards, keyword, in_step, n, sketch)
-      !> The file
-      type(cards_type), intent(inout) :: cards
-      !> The keyword
-      type(line_type), intent(in) :: keyword
-      !> Whether it stands in a step
-      logical, intent(in) :: in_step
-      !> How many of them the step has above; with this one on return
-      integer, intent(inout) :: n
-      !> The new deck
-      type(sketch_type), intent(inout) :: sketch
-
-      if (.not. in_step) return
-      n = n + 1
-      if (parameter_of(keyword, 'OP') /= 'NEW') return
-      if (n == 1) then
-         sketch%parts([part_restraints, part_moved])%used = 0
-      else
-         call add_warning(cards%diagnostics, keyword%card, 0, 0, 'OP=NEW counts on the first '// &
-            '*BOUNDARY of a step alone: what stands above it stays')
-      end if
-   end subroutine renew_boundary
-
-   !> Why values of a keyword cannot be taken as they stand; empty if they can
-   pure function reserve(keyword) result(words)
-      !> The keyword
-      type(line_type), intent(in) :: keyword
-      !> Such as " with AMPLITUDE=RAMP"
-      character(len=:), allocatable :: words
-
-      words = ''
-      if (parameter_of(keyword, 'AMPLITUDE') /= '') &
-         words = ' with AMPLITUDE='//parameter_of(keyword, 'AMPLITUDE')
-      if (keyword%keyword /= 'BOUNDARY') return
-      if (all(parameter_of(keyword, 'TYPE') /= [character(len=12) :: '', 'DISPLACEMENT'])) &
-         words = ' with TYPE='//parameter_of(keyword, 'TYPE')
-      if (has_parameter(keyword, 'USER')) words = ' with USER'
-      if (has_parameter(keyword, 'SUBMODEL')) words = ' with SUBMODEL'
-   end function reserve
-
-   !> Whether a node is there; an error if not
-   logical function is_node(cards, line, mesh, number)
-      !> The file
-      type(cards_type), intent(inout) :: cards
-      !> The line that names it, or a set that has it, in its first field
-      type(line_type), intent(in) :: line
-      !> The mesh
-      type(abaqus_type), intent(in) :: mesh
-      !> Number of the node
-      integer, intent(in) :: number
-
-      is_node = find_number(mesh%node_map, number) > 0
-      if (.not. is_node) call fault_of(cards, line, 1, 'there is no node '//to_text(number), &
-         'nodes of *NODE')
-   end function is_node
-
-   !> *BOUNDARY: node or set, first component, last, value; or a word for components
-   subroutine add_boundary(cards, keyword, at, mesh, sketch)
-      !> The file
-      type(cards_type), intent(inout) :: cards
-      !> The keyword
-      type(line_type), intent(in) :: keyword
-      !> Its card; the last of its data on return
-      integer, intent(inout) :: at
-      !> The mesh
-      type(abaqus_type), intent(in) :: mesh
-      !> The new deck
-      type(sketch_type), intent(inout) :: sketch
-
-      type(line_type) :: line
-      type(list_type) :: list
-      character(len=:), allocatable :: word, u, v
-      logical :: held(2)
-      integer :: first, last, k
-      real(wp) :: value
-
-      do while (is_data(cards, at, line))
-         list = members(cards, line, 1, mesh%node_sets)
-         word = upper(field_text(line, 2))
-         value = 0.0_wp
-         select case (word)
-         case ('ENCASTRE', 'PINNED')
-            held = .true.
-         case ('XSYMM')
-            held = [.true., .false.]
-         case ('YSYMM')
-            held = [.false., .true.]
-         case default
-            first = integer_of(cards, line, 2)
-            last = max(first, integer_of(cards, line, 3))
-            value = real_of(cards, line, 4)
-            if (first < 1 .or. first > 6) then
-               call fault_of(cards, line, 2, 'this is no component', &
-                  '1 along r, 2 along z, or ENCASTRE, PINNED, XSYMM, YSYMM')
-               cycle
-            end if
-            held = [first == 1, first <= 2 .and. last >= 2]
-            if (.not. any(held)) then
-               call leave_out(sketch, line%card, '*'//keyword%keyword//' of component '//word)
-               cycle
-            end if
-         end select
-         ! zero is zero over time, too, unless the values come from somewhere else
-         if (len(reserve(keyword)) > 0 .and. (abs(value) > 0.0_wp .or. &
-             has_parameter(keyword, 'USER') .or. has_parameter(keyword, 'SUBMODEL'))) then
-            call leave_out(sketch, line%card, '*'//keyword%keyword//reserve(keyword))
-            cycle
-         end if
-         u = ''
-         v = ''
-         if (held(1)) u = exact(value)
-         if (held(2)) v = exact(value)
-         do k = 1, list%n
-            if (.not. is_node(cards, line, mesh, list%value(k))) exit
-            if (abs(value) > 0.0_wp) then
-               call put(sketch%parts(part_moved), to_text(list%value(k))//', 0, '//u//', '//v)
-            else
-               call put(sketch%parts(part_restraints), to_text(list%value(k))//', '// &
-                  merge('1', '0', held(1))//merge('1', '0', held(2))//'0')
-            end if
-         end do
-      end do
-   end subroutine add_boundary
 
    !> *CLOAD: node or set, component, force of the whole circle
    subroutine add_ring_force(cards, keyword, at, mesh, sketch)
@@ -163,7 +36,7 @@ contains
       type(line_type) :: line
       type(list_type) :: list
       real(wp) :: force, radius
-      integer :: component, k
+      integer :: component, k, node
 
       do while (is_data(cards, at, line))
          list = members(cards, line, 1, mesh%node_sets)
@@ -175,13 +48,18 @@ contains
             cycle
          end if
          do k = 1, list%n
-            if (.not. is_node(cards, line, mesh, list%value(k))) exit
-            radius = mesh%position(1, find_number(mesh%node_map, list%value(k)))
+            node = index_of(cards, line, mesh, list%value(k))
+            if (node == 0) exit
+            if (.not. mesh%used(node)) then
+               call leave_out(sketch, line%card, '*CLOAD on node '//to_text(list%value(k))//', which no element has')
+               cycle
+            end if
+            radius = mesh%position(1, node)
             if (radius > 0.0_wp) then
-               call put(sketch%parts(part_ring_loads), to_text(list%value(k))//', 0, '// &
+               call put(sketch%parts(part_ring_loads), to_text(mesh%node(node))//', 0, '// &
                   repeat(', ', component - 1)//exact(force/(2.0_wp*pi*radius)))
             else if (component == 2) then
-               call put(sketch%parts(part_ring_loads), to_text(list%value(k))//', 0, , '// &
+               call put(sketch%parts(part_ring_loads), to_text(mesh%node(node))//', 0, , '// &
                   exact(force))
             else if (abs(force) > 0.0_wp) then
                call leave_out(sketch, line%card, '*CLOAD of component 1 on the axis, where '// &
@@ -269,7 +147,8 @@ contains
 
       character(len=:), allocatable :: kind
       type(list_type) :: list
-      integer :: k, side, element, nodes(2), face
+      integer, allocatable :: nodes(:)
+      integer :: k, side, element, face
 
       list = members(cards, line, 1, mesh%element_sets)
       kind = field_text(line, 2)
@@ -298,12 +177,17 @@ contains
       !> The new deck
       type(sketch_type), intent(inout) :: sketch
 
-      integer :: k, i, face, nodes(2)
+      integer, allocatable :: nodes(:)
+      integer :: k, i, face
 
       face = 0
       do k = 1, size(mesh%surfaces)
          associate (surface => mesh%surfaces(k))
             if (surface%elements%n == 0) cycle
+            if (surface%joined) then
+               face = face + surface%elements%n
+               cycle
+            end if
             call put(sketch%parts(part_chains), '! surface '//surface%name//': faces '// &
                to_text(face + 1)//' to '//to_text(face + surface%elements%n))
             do i = 1, surface%elements%n

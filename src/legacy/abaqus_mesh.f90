@@ -12,7 +12,7 @@ module axijoint_legacy_abaqus_mesh
    implicit none
    private
    public :: abaqus_type, surface_type, read_nodes, read_elements, read_set, gather_nodes, read_surface, &
-      members, side_nodes, is_side
+      members, find_surface, side_nodes, is_side, n_side_nodes, index_of, root_of, tie, number_at
 
    !> Sides of elements with a name
    type :: surface_type
@@ -20,6 +20,8 @@ module axijoint_legacy_abaqus_mesh
       character(len=:), allocatable :: name
       !> Elements (indices) and their sides
       type(list_type) :: elements, sides
+      !> Whether it lies on another one, as contact or tied to it
+      logical :: joined = .false.
    end type surface_type
 
    !> What is read
@@ -29,6 +31,9 @@ module axijoint_legacy_abaqus_mesh
       integer, allocatable :: node(:)
       real(wp), allocatable :: position(:, :)
       integer :: n_nodes = 0
+      !> Whether elements have a node; node that it is tied to, itself if none
+      logical, allocatable :: used(:)
+      integer, allocatable :: tied_to(:)
       !> Elements by number: numbers, nodes as on the lines, how many; whether the rule is reduced
       type(number_map_type) :: element_map
       integer, allocatable :: element(:), nodes(:, :), size(:), material(:)
@@ -96,11 +101,12 @@ contains
       name = parameter_of(keyword, 'ELSET')
       digit = scan(kind, '3468')
       n = 0
-      if (digit > 0 .and. (index(kind, 'CAX') == 1 .or. index(kind, 'CGAX') == 1)) &
-         read (kind(digit:digit), *) n
+      if (digit > 0) then
+         if (any(kind(:digit - 1) == [character(len=4) :: 'CAX', 'CGAX'])) read (kind(digit:digit), *) n
+      end if
       if (n == 0) then
          call fault_of(cards, keyword, 0, 'elements of type '//kind//' are no axisymmetric solids', &
-            'CAX3, CAX4, CAX6, CAX8, and their variants')
+            'CAX3, CAX4, CAX6, CAX8, and their variants; what CAXA adds to them are harmonics, which CONTROL has here')
          do while (is_data(cards, at, line))
          end do
          return
@@ -363,6 +369,79 @@ contains
 
    end subroutine read_surface
 
+   !> Index of a node, or of that which it is tied to; 0, and an error, if it is not there
+   integer function index_of(cards, line, mesh, number) result(node)
+      !> The file
+      type(cards_type), intent(inout) :: cards
+      !> The line that names it, or a set that has it, in its first field
+      type(line_type), intent(in) :: line
+      !> The mesh
+      type(abaqus_type), intent(in) :: mesh
+      !> Number of the node
+      integer, intent(in) :: number
+
+      node = find_number(mesh%node_map, number)
+      if (node == 0) then
+         call fault_of(cards, line, 1, 'there is no node '//to_text(number), 'nodes of *NODE')
+      else
+         node = root_of(mesh, node)
+      end if
+   end function index_of
+
+   !> Node that a node is tied to in the end
+   pure integer function root_of(mesh, node) result(root)
+      !> The mesh
+      type(abaqus_type), intent(in) :: mesh
+      !> The node (index)
+      integer, intent(in) :: node
+
+      root = node
+      do while (mesh%tied_to(root) /= root)
+         root = mesh%tied_to(root)
+      end do
+   end function root_of
+
+   !> Number of the node that a node of this number is tied to in the end
+   pure integer function number_at(mesh, number) result(there)
+      !> The mesh
+      type(abaqus_type), intent(in) :: mesh
+      !> Number of a node
+      integer, intent(in) :: number
+
+      integer :: node
+
+      node = find_number(mesh%node_map, number)
+      there = number
+      if (node > 0) there = mesh%node(root_of(mesh, node))
+   end function number_at
+
+   !> Tie a node to another
+   subroutine tie(mesh, node, to)
+      !> The mesh
+      type(abaqus_type), intent(inout) :: mesh
+      !> Indices of both
+      integer, intent(in) :: node, to
+
+      mesh%tied_to(root_of(mesh, node)) = root_of(mesh, to)
+   end subroutine tie
+
+   !> Place of a surface among all; 0, and an error, if there is none of the name in a field
+   integer function find_surface(cards, line, field, mesh) result(found)
+      !> The file
+      type(cards_type), intent(inout) :: cards
+      !> The line, and the field
+      type(line_type), intent(in) :: line
+      integer, intent(in) :: field
+      !> The mesh
+      type(abaqus_type), intent(in) :: mesh
+
+      do found = size(mesh%surfaces), 1, -1
+         if (mesh%surfaces(found)%name == name_in(line, field)) return
+      end do
+      found = 0
+      call fault_of(cards, line, field, 'there is no surface of this name', 'surfaces of sides of elements that are above')
+   end function find_surface
+
    !> Whether an element has a side; an error if not
    logical function is_side(cards, line, mesh, element, side)
       !> The file
@@ -389,16 +468,33 @@ contains
       corners = merge(3, 4, any(mesh%size(element) == [3, 6]))
    end function corners_of
 
-   !> Corners of a side of an element
+   !> Nodes of a side: two corners, and one between them of quadratic elements
+   pure integer function n_side_nodes(mesh, element)
+      !> The mesh
+      type(abaqus_type), intent(in) :: mesh
+      !> Element (index)
+      integer, intent(in) :: element
+
+      n_side_nodes = merge(2, 3, mesh%size(element) <= 4)
+   end function n_side_nodes
+
+   !> Nodes of a side of an element: its corners, in the order of the element, and the node between them
    pure function side_nodes(mesh, element, side) result(nodes)
       !> The mesh
       type(abaqus_type), intent(in) :: mesh
       !> Element (index) and side, from 1
       integer, intent(in) :: element, side
-      !> Numbers of the nodes
-      integer :: nodes(2)
+      !> Numbers of the nodes, or of those that they are tied to
+      integer :: nodes(n_side_nodes(mesh, element))
 
-      nodes = mesh%nodes([side, mod(side, corners_of(mesh, element)) + 1], element)
+      integer :: i, corners
+
+      corners = corners_of(mesh, element)
+      nodes(:2) = mesh%nodes([side, mod(side, corners) + 1], element)
+      if (size(nodes) == 3) nodes(3) = mesh%nodes(corners + side, element)
+      do i = 1, size(nodes)
+         nodes(i) = number_at(mesh, nodes(i))
+      end do
    end function side_nodes
 
 end module axijoint_legacy_abaqus_mesh

@@ -26,6 +26,8 @@ module axijoint_legacy_cards
       !> The card that was read last, and places of its values
       integer :: at = 0
       type(place_type), allocatable :: places(:)
+      !> Whether it was said that a format has too few of them
+      logical :: told_lack = .false.
       !> Whether the deck ended before its time
       logical :: ended = .false.
    end type cards_type
@@ -114,6 +116,22 @@ contains
       last = first + len(token) - 1
    end subroutine token_at
 
+   !> Whether the format of a card that is there has no place for a value; the first time it is an error
+   logical function lacks(cards, n, name)
+      !> The deck
+      type(cards_type), intent(inout) :: cards
+      !> Place of the value
+      integer, intent(in) :: n
+      !> Its name
+      character(len=*), intent(in) :: name
+
+      lacks = .not. cards%ended .and. n > size(cards%places)
+      if (lacks .and. .not. cards%told_lack) call add_error(cards%diagnostics, cards%at, 0, 0, &
+         'the format of this card has no place for '//name, found=to_text(size(cards%places))//' values', &
+         allowed=to_text(n)//' values or more', mend='see the file of --format')
+      cards%told_lack = cards%told_lack .or. lacks
+   end function lacks
+
    !> An integer; a blank field is zero
    integer function integer_at(cards, n, name) result(value)
       !> The deck
@@ -127,6 +145,7 @@ contains
       integer :: first, last, fault
 
       value = 0
+      if (lacks(cards, n, name)) return
       call token_at(cards, n, token, first, last)
       if (len(token) == 0) return
       call read_integer(token, value, fault)
@@ -148,22 +167,42 @@ contains
       integer :: first, last, fault, digits
 
       value = 0.0_wp
+      if (lacks(cards, n, name)) return
       call token_at(cards, n, token, first, last)
       if (len(token) == 0) return
-      digits = cards%places(n)%decimals
-      if (index(token, '.') == 0 .and. digits > 0 .and. verify(token, '+-0123456789') == 0) then
-         call read_real(token//'E-'//to_text(digits), value, fault)
-         if (fault == token_good .and. abs(value) > 0.0_wp) call add_warning(cards%diagnostics, &
-            cards%at, first, last, name//' has no decimal point: its last '//to_text(digits)// &
-            ' digits are decimals, as its format says', found=token//', read as '//to_text(value), &
+      digits = max(0, cards%places(n)%decimals)
+      if (index(token, '.') > 0) digits = 0
+      call read_real(token, value, fault)
+      if (digits > 0 .and. fault == token_good .and. abs(value) > 0.0_wp) then
+         call read_real(with_decimals(token, digits), value, fault)
+         call add_warning(cards%diagnostics, cards%at, first, last, name//' has no decimal point: its last '// &
+            to_text(digits)//' digits are decimals, as its format says', found=token//', read as '//to_text(value), &
             mend='write the point')
-      else
-         call read_real(token, value, fault)
       end if
       if (fault /= token_good) call add_error(cards%diagnostics, cards%at, first, last, &
          name//' is no number', found=token, &
          allowed='a number in columns '//columns(cards, n), mend=misplaced)
    end function real_at
+
+   !> A real without a point, so many of whose digits before an exponent are decimals
+   function with_decimals(token, decimals) result(number)
+      !> It
+      character(len=*), intent(in) :: token
+      !> Decimals
+      integer, intent(in) :: decimals
+      !> The same with an exponent that says so
+      character(len=:), allocatable :: number
+
+      integer :: letter, power, fault
+
+      letter = scan(token, 'EeDd')
+      if (letter == 0) then
+         number = token//'E-'//to_text(decimals)
+      else
+         call read_integer(token(letter + 1:), power, fault)
+         number = token(:letter - 1)//'E'//to_text(power - decimals)
+      end if
+   end function with_decimals
 
    !> Report an error about a value of the last card
    subroutine complain(cards, n, number, text, allowed, card)

@@ -4,6 +4,7 @@ module axijoint_legacy_convert
    use axijoint_base_text, only : to_text, upper
    use axijoint_deck_registry, only : all_sections
    use axijoint_deck_text_diagnostics, only : add_error
+   use axijoint_deck_text_file_bytes, only : line_end, next_line
    use axijoint_deck_text_section, only : names_of, keyword_length
    use axijoint_deck_text_source, only : card_text
    use axijoint_legacy_cards, only : cards_type, open_cards, warn
@@ -15,7 +16,7 @@ module axijoint_legacy_convert
    use axijoint_legacy_words, only : text_type, put, list, integers, exact
    implicit none
    private
-   public :: convert_deck, looks_old
+   public :: convert_deck, looks_old, may_be_old, is_own
 
    !> Tolerance that residual forces have here, whatever TOLER asks for above it
    real(wp), parameter :: tolerance = 1.0e-6_wp
@@ -66,6 +67,29 @@ contains
       end do
       is_own = n > n_titles
    end function is_own
+
+   !> Whether a text can be an old deck, be it with errors: most words of its second line, and four at least, are whole numbers
+   pure logical function may_be_old(bytes)
+      !> What it says
+      character(len=*), intent(in) :: bytes
+
+      character(len=:), allocatable :: line
+      integer :: first, last, blank, n_words, n_whole
+
+      first = next_line(bytes, line_end(bytes, 1))
+      last = line_end(bytes, first)
+      line = ''
+      if (last >= first) line = trim(adjustl(bytes(first:min(last, first + 200))))
+      n_words = 0
+      n_whole = 0
+      do while (len(line) > 0)
+         blank = scan(line//' ', ' '//achar(9))
+         n_words = n_words + 1
+         if (verify(line(:blank - 1), '+-0123456789') == 0) n_whole = n_whole + 1
+         line = trim(adjustl(line(min(blank, len(line)) + 1:)))
+      end do
+      may_be_old = n_whole >= 4 .and. 2*n_whole > n_words
+   end function may_be_old
 
    !> Whether a text may be an old deck: its second line is eleven integers
    pure logical function looks_old(bytes)

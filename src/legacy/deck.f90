@@ -3,6 +3,7 @@
 module axijoint_legacy_deck
    use axijoint_base_kinds, only : wp
    use axijoint_base_text, only : to_text
+   use axijoint_deck_mesh_places, only : clear_rounding
    use axijoint_deck_text_source, only : card_text
    use axijoint_legacy_cards, only : cards_type, next_card, integer_at, real_at, complain, warn
    use axijoint_legacy_layout, only : card_control, card_element, card_node, card_restraint, &
@@ -241,8 +242,9 @@ contains
             ' is given again: the last card counts')
          deck%node_card(node) = cards%at
          deck%position(:, node) = position
-         if (node == deck%n_nodes) return
+         if (node == deck%n_nodes) exit
       end do
+      call clear_rounding(deck%position)
    end subroutine read_nodes
 
    !> Put mid-side nodes without a card in the middle of their sides, centre nodes in that of the

@@ -4,6 +4,7 @@ module axijoint_legacy_nastran
    use axijoint_base_kinds, only : wp
    use axijoint_base_number_map, only : number_map_type, find_number, insert_number
    use axijoint_base_text, only : to_text, upper
+   use axijoint_deck_mesh_places, only : clear_rounding
    use axijoint_deck_text_diagnostics, only : add_error, add_warning
    use axijoint_deck_text_file_bytes, only : line_end, next_line
    use axijoint_deck_text_source, only : card_text
@@ -249,10 +250,11 @@ contains
       type(sketch_type), intent(inout) :: sketch
 
       type(entry_type) :: entry
-      integer :: at, ring, n
+      integer, allocatable :: rings(:)
+      integer :: at, ring, n, k
 
       n = cards%source%n_cards
-      allocate (case%position(2, n), case%material(n))
+      allocate (case%position(2, n), case%material(n), rings(n))
       at = bulk
       do
          call next_entry(cards, at, entry)
@@ -272,9 +274,7 @@ contains
             call insert_number(case%rings, ring, case%n_rings)
             case%position(:, case%n_rings) = [real_in(cards, entry, 4, 0.0_wp), &
                real_in(cards, entry, 5, 0.0_wp)]
-            call put(sketch%parts(part_nodes), to_text(ring)//', '// &
-               exact(case%position(1, case%n_rings))//', '// &
-               exact(case%position(2, case%n_rings)))
+            rings(case%n_rings) = ring
             if (is_in(entry, 8)) call hold(cards, entry, 8, ring, '', sketch)
          case ('PTRAPAX', 'PTRIAAX')
             case%n_materials = case%n_materials + 1
@@ -285,6 +285,10 @@ contains
          case ('CTRAPAX', 'CTRIAAX')
             call claim_number(cards, entry, 'an element', 1, case%elements)
          end select
+      end do
+      call clear_rounding(case%position(:, :case%n_rings))
+      do k = 1, case%n_rings
+         call put(sketch%parts(part_nodes), to_text(rings(k))//', '//exact(case%position(1, k))//', '//exact(case%position(2, k)))
       end do
    end subroutine read_rings
 

@@ -9,18 +9,18 @@ module axijoint_legacy_sketch
    use axijoint_legacy_words, only : text_type, put
    implicit none
    private
-   public :: sketch_type, leave_out, write_sketch
-   public :: part_materials, part_yield, part_nodes, part_elements, part_restraints, part_chains, &
-      part_tractions, part_pressures, part_ring_loads, part_gravity, part_rotation, part_moved, &
+   public :: sketch_type, leave_out, tell_left, write_sketch
+   public :: part_materials, part_yield, part_laws, part_law_details, part_nodes, part_elements, part_joints, &
+      part_restraints, part_chains, part_tractions, part_pressures, part_ring_loads, part_gravity, part_rotation, part_moved, &
       part_notes, n_parts
 
    !> Sections, in the order in which they are written, and remarks on groups
-   integer, parameter :: part_materials = 1, part_yield = 2, part_nodes = 3, part_elements = 4, part_chains = 5, &
-      part_restraints = 6, part_tractions = 7, part_pressures = 8, part_ring_loads = 9, &
-      part_gravity = 10, part_rotation = 11, part_moved = 12, part_notes = 13, n_parts = 13
+   integer, parameter :: part_materials = 1, part_yield = 2, part_laws = 3, part_law_details = 4, part_nodes = 5, &
+      part_elements = 6, part_joints = 7, part_chains = 8, part_restraints = 9, part_tractions = 10, part_pressures = 11, &
+      part_ring_loads = 12, part_gravity = 13, part_rotation = 14, part_moved = 15, part_notes = 16, n_parts = 16
    !> Their keywords
-   character(len=*), parameter :: keywords(n_parts) = [character(len=10) :: 'MATERIALS', 'YIELD', &
-      'NODES', 'ELEMENTS', 'CHAINS', 'RESTRAINTS', 'TRACTIONS', 'PRESSURES', 'RINGLOADS', 'GRAVITY', &
+   character(len=*), parameter :: keywords(n_parts) = [character(len=10) :: 'MATERIALS', 'YIELD', 'LAWS', 'LAWDETAILS', &
+      'NODES', 'ELEMENTS', 'JOINTS', 'CHAINS', 'RESTRAINTS', 'TRACTIONS', 'PRESSURES', 'RINGLOADS', 'GRAVITY', &
       'ROTATION', 'MOVEDNODES', '']
 
    !> Lines that follow each other and are not translated
@@ -83,13 +83,43 @@ contains
       sketch%left(sketch%n_left)%last = card
    end subroutine leave_out
 
+   !> Warn of what is not translated, line by line
+   subroutine tell_left(sketch, cards)
+      !> What was gathered
+      type(sketch_type), intent(in) :: sketch
+      !> The old deck's cards; take warnings
+      type(cards_type), intent(inout) :: cards
+
+      integer :: k
+
+      do k = 1, sketch%n_left
+         associate (left => sketch%left(k))
+            call add_warning(cards%diagnostics, left%first, 0, 0, 'not translated: '//left%keyword//', '//place(cards, left))
+         end associate
+      end do
+   end subroutine tell_left
+
+   !> Lines of the old deck
+   function place(cards, left)
+      !> Its cards
+      type(cards_type), intent(in) :: cards
+      !> What is not translated
+      type(left_type), intent(in) :: left
+      !> Such as "line 7", "lines 7 to 9"
+      character(len=:), allocatable :: place
+
+      place = 'line '//to_text(card_line(cards%source, left%first))
+      if (left%last > left%first) place = 'lines '//to_text(card_line(cards%source, left%first))//' to '// &
+         to_text(card_line(cards%source, left%last))
+   end function place
+
    !> The new deck, with what is not translated, line by line
    subroutine write_sketch(path, sketch, cards, text)
       !> Path of the old deck
       character(len=*), intent(in) :: path
       !> What was gathered of it
       type(sketch_type), intent(in) :: sketch
-      !> Its cards; take warnings
+      !> Its cards; take warnings about the title
       type(cards_type), intent(inout) :: cards
       !> The new deck
       character(len=:), allocatable, intent(out) :: text
@@ -101,9 +131,7 @@ contains
       call put(new, '! from '//path)
       do k = 1, sketch%n_left
          associate (left => sketch%left(k))
-            call put(new, '! not translated: '//place(left)//' '//left%keyword)
-            call add_warning(cards%diagnostics, left%first, 0, 0, 'not translated: '// &
-               left%keyword//', '//place(left))
+            call put(new, '! not translated: '//place(cards, left)//' '//left%keyword)
          end associate
       end do
       call append(sketch%parts(part_notes))
@@ -119,18 +147,6 @@ contains
       text = new%letters(:new%used)
 
    contains
-
-      !> Lines of the old deck
-      function place(left)
-         !> What is not translated
-         type(left_type), intent(in) :: left
-         !> Such as "line 7", "lines 7 to 9"
-         character(len=:), allocatable :: place
-
-         place = 'line '//to_text(card_line(cards%source, left%first))
-         if (left%last > left%first) place = 'lines '//to_text(card_line(cards%source, &
-            left%first))//' to '//to_text(card_line(cards%source, left%last))
-      end function place
 
       !> Add the cards of a section
       subroutine append(part)

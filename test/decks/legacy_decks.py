@@ -226,6 +226,25 @@ def dialect(program, folder):
             + ([] if 'bad.fmt:1: a card and its format' in wrong.err else [wrong.err]))
 
 
+def formats(program, folder):
+    """A format in brackets, as Fortran has it, is taken; one that is none, or has too few values, is refused. An exponent does not
+    take the decimals of a number without a point"""
+    text = scenes.DECKS['cylinder.dat']
+    _, one = solved(program, folder, 'book', text)
+    faults = []
+    ran = program.run('run', *FLAG, '--format', write(folder, 'a.fmt', 'pressure (6F10.3)\nnode (I5,6F10.5)\n'),
+                      write(folder, 'a.dat', text), '-o', folder)
+    faults += ran.ended_with(0) + expected('displacements', largest(json.loads(read_text(os.path.join(folder, 'book.json')))),
+                                           largest(json.loads(read_text(os.path.join(folder, 'a.json')))))
+    for card, words in (('pressure 1P6F10.3', 'a card and its format are expected'), ('pressure (6F10.3', 'a card and its format'),
+                        ('gravity (F10.3)', 'this format has fewer values than the card'), ('node I5,6F10', 'a card and its format')):
+        ran = program.run('check', *FLAG, '--format', write(folder, 'b.fmt', card + '\n'), os.path.join(folder, 'a.dat'))
+        faults += ran.ended_with(2) + ([] if f'b.fmt:1: {words}' in ran.err else [f'{card}: {ran.err}'])
+    old = next(line for line in text.split('\n') if line.strip().startswith('21000'))
+    ran = program.run('check', *FLAG, write(folder, 'c.dat', text.replace(old, f'{"21E3":>10}' + old[10:])))
+    return faults + ([] if 'E has no decimal point' in ran.err and '21E3, read as 0.21' in ran.err else [ran.err[:600]])
+
+
 def dialect_error(program, folder):
     """An old error is placed in the columns of the dialect"""
     lines = scenes.DECKS['cylinder.dat'].split('\n')
@@ -259,7 +278,7 @@ def tests(program):
         return Test(f'legacy: {name}', lambda folder: function(program, folder, *arguments))
 
     return ([test(name.__name__.replace('_', ' '), name) for name in
-             (cylinder, cylinder_mohr, sphere, plate, footing, column, traps, refused, nothing_overwritten, offered, dialect, dialect_error)]
+             (cylinder, cylinder_mohr, sphere, plate, footing, column, traps, refused, nothing_overwritten, offered, dialect, formats, dialect_error)]
             + [test(f'converted, {name}', converted, name) for name in scenes.DECKS]
             + [test(f'error {number}, line {line}', old_error, number, line, columns, text)
                for number, line, columns, text in ERRORS])

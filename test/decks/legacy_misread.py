@@ -115,11 +115,11 @@ def gravity_directions(program, folder):
 def sets_of_nodes(program, folder):
     """*NSET of a set of elements has their nodes, each once; GENERATE those that are there, however far it goes; nodes and elements
     may stand below the sets"""
-    held = [f'{k}, 100' for k in range(1, 10)]
+    held = [f'{k}, 110' for k in range(1, 4)] + [f'{k}, 100' for k in range(4, 10)]
     faults = []
     for lines in (('*NSET, NSET=WALL, ELSET=LOW',), ('*NSET, NSET=WALL, GENERATE', '1, 9')):
         got = Converted(program, folder, 'bar.inp', bar(before=(*lines, '*BOUNDARY', 'WALL, 1, 1')))
-        faults += got.expect('RESTRAINTS', '1, 010', '2, 010', '3, 010', *held).faults
+        faults += got.expect('RESTRAINTS', *held).faults
     text = bar('*CLOAD', 'ODD, 2, 1.', before=('*NSET, NSET=ODD, GENERATE', '3, 2000000000, 6'))
     for way in (text, text.replace('*NODE\n', '*NSET, NSET=ODD, GENERATE\n3, 2000000000, 6\n*NODE\n', 1).replace(
             '*NSET, NSET=ODD, GENERATE\n3, 2000000000, 6\n*STEP', '*STEP')):
@@ -212,8 +212,8 @@ def boundaries_anew(program, folder):
     faults = []
     for lines, cards in ((('*BOUNDARY, OP=NEW', '1, 1, 2'), ['1, 110']),
                          (('*BOUNDARY, OP=NEW', '1, 1, 2', '*BOUNDARY, OP=NEW', '2, 2'), ['1, 110', '2, 010']),
-                         (('*BOUNDARY, OP=MOD', '1, 1, 2'), ['1, 010', '2, 010', '3, 010', '1, 110']),
-                         (('*BOUNDARY', '1, 1', '*BOUNDARY, OP=NEW', '2, 1'), ['1, 010', '2, 010', '3, 010', '1, 100', '2, 100'])):
+                         (('*BOUNDARY, OP=MOD', '1, 1, 2'), ['1, 110', '2, 010', '3, 010']),
+                         (('*BOUNDARY', '1, 1', '*BOUNDARY, OP=NEW', '2, 1'), ['1, 110', '2, 110', '3, 010'])):
         faults += Converted(program, folder, 'bar.inp', bar(*lines)).expect('RESTRAINTS', *cards).faults
     return faults
 
@@ -392,7 +392,6 @@ UNREADABLE = (
     # what, the text, what is wrong with the new deck
     ('clockwise', bar('*DLOAD', '103, P3, 5.').replace('1, 1, 2, 5, 4\n', '1, 4, 5, 2, 1\n', 1), 'the nodes of element 1 run clockwise'),
     ('pressure inside a body', bar('*DLOAD', 'LOW, P3, 5.'), 'the edge 5-4 is inside a body'),
-    ('held and moved', bar('*BOUNDARY', '1, 2, 2, 0.1'), 'node 1'),
 )
 
 

@@ -224,6 +224,26 @@ def abaqus(kind='CAX8R'):
     return '\n'.join(lines)
 
 
+def abaqus_rings(between, shift=0.0):
+    """Two rings of parts of their own, r from 1 to 1.5 and from there (and a shift) to 2, pressed from within; plane strain. Lines
+    say what is between the surfaces FIT and HUB"""
+    n = 8
+    lines = ['*HEADING', 'Rings', '*NODE, NSET=ALL']
+    elements, ends = [], []
+    for part, (first, last) in enumerate(((1.0, 1.5), (1.5 + shift, 2.0))):
+        number, _, found = grid(even(1.0, 2.0, n), [0.0, 0.1])
+        for (i, j), k in number.items():
+            lines.append(f'{1000*part + k}, {first + (last - first)*i/2/n:.12g}, {0.05*j:.7g}')
+            ends += [1000*part + k] if j in (0, 2) else []
+        elements += [[1000*part + k + 1] + [1000*part + e[m] for m in (0, 2, 4, 6, 1, 3, 5, 7)] for k, e in enumerate(found)]
+    lines += ['*ELEMENT, TYPE=CAX8R, ELSET=BODY'] + [', '.join(map(str, e)) for e in elements]
+    lines += ['*NSET, NSET=ENDS'] + [', '.join(map(str, ends[a:a + 8])) for a in range(0, len(ends), 8)]
+    lines += ['*SURFACE, NAME=BORE', '1, S4', '*SURFACE, NAME=FIT', f'{n}, S2', '*SURFACE, NAME=HUB', '1001, S4', '*MATERIAL, NAME=STEEL',
+              '*ELASTIC', '21000., 0.3', '*SOLID SECTION, ELSET=BODY, MATERIAL=STEEL', *between, '*BOUNDARY', 'ENDS, 2, 2', '*STEP',
+              '*STATIC', '*DSLOAD', 'BORE, P, 8.', '*END STEP', '']
+    return '\n'.join(lines)
+
+
 OTHERS = {'cylinder.bdf': nastran(), 'cylinder.inp': abaqus()}
 
 DECKS = {

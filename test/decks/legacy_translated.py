@@ -132,6 +132,90 @@ def abaqus_loads(program, folder):
     return faults + [f'not in the deck: {words}' for words in ('ROTATION\n1.0E+001', 'GRAVITY\n-9.81', '50001, 0, 8.0') if words not in deck]
 
 
+def rings(stiffness):
+    """u at the bore of scenes.abaqus_rings, Lame's for both rings and a layer of a stiffness between them, and its pressure"""
+    def u(r, a, b, inside, outside):
+        first = (inside*a**2 - outside*b**2)/(b**2 - a**2)
+        return 1.3/21000.0*(0.4*first*r + (inside - outside)*a**2*b**2/(b**2 - a**2)/r)
+
+    overlap_by_load = u(1.5, 1.0, 1.5, 8.0, 0.0)
+    overlap_by_pressure = u(1.5, 1.5, 2.0, 1.0, 0.0) - u(1.5, 1.0, 1.5, 0.0, 1.0) + (1.0/stiffness if stiffness else 0.0)
+    pressure = overlap_by_load/overlap_by_pressure
+    return u(1.0, 1.0, 1.5, 8.0, pressure), pressure
+
+
+def abaqus_contact(program, folder, between, stiffness, words):
+    """Two rings in contact, or tied: displacement and pressure by Lame; what is in the deck"""
+    _, deck, summary, tables = translated(program, folder, 'rings.inp', scenes.abaqus_rings(between))
+    found, (wanted, pressure) = max(row['u'] for row in tables['m = 0']), rings(stiffness)
+    faults = [] if abs(found - wanted) < 1e-6*wanted else [f'u(a): expected {wanted}, found {found}']
+    if stiffness:
+        found = summary['increments'][-1]['largest_pressure']
+        faults += [] if abs(found - pressure) < 1e-5*pressure else [f'pressure: expected {pressure}, found {found}']
+    elif summary['joints']:
+        faults.append('joints between what is tied')
+    return faults + [f'not in the deck: {text}' for text in words if text not in deck]
+
+
+def abaqus_apart(program, folder):
+    """Surfaces that stand apart, or do not lie on each other: told, and the end says that something is not in the deck"""
+    pair = ('*SURFACE INTERACTION, NAME=DRY', '*CONTACT PAIR, INTERACTION=DRY', 'FIT, HUB')
+    faults = []
+    for shift, words in ((1e-3, 'surfaces that stand apart by up to 0.001'), (0.3, 'none of whose sides lie on each other')):
+        new = os.path.join(folder, f'{shift}.dat')
+        ran = program.run('convert', write(folder, 'apart.inp', scenes.abaqus_rings(pair, shift)), new)
+        faults += ran.ended_with(0)
+        faults += [f'{text} not in {ran.err}{ran.out}' for text, said in ((words, ran.err), ('1 thing of the old deck is not in it', ran.out))
+                   if text not in said]
+    return faults
+
+
+def abaqus_places(program, folder):
+    """An instance that is moved, coordinates that are rounding of 0 with a force on the axis, nodes that no element has, a later
+    *BOUNDARY that replaces an earlier one, symmetry by words"""
+    base = scenes.abaqus('CAX8R')
+    moved = base.replace('*NODE, NSET=ALL', '*PART, NAME=P\n*NODE, NSET=ALL').replace(
+        '*MATERIAL', '*END PART\n*ASSEMBLY, NAME=A\n*INSTANCE, NAME=P-1, PART=P\n5., 0., 0.\n*END INSTANCE\n*END ASSEMBLY\n*MATERIAL', 1)
+    _, _, _, tables = translated(program, folder, 'moved.inp', moved)
+    found, wanted = max(row['u'] for row in tables['m = 0']), 1.3*8.0/(21000.0*(49 - 36))*((1 - 0.6)*36*6 + 49*6)
+    faults = [] if abs(found - wanted) < 1e-4*wanted else [f'moved: expected {wanted}, found {found}']
+    axis = ('*HEADING\nColumn\n*NODE\n1, -1E-17, 0.\n2, 1., 0.\n3, 1., 2.\n4, 1E-17, 2.\n9, 7., 7.\n*ELEMENT, TYPE=CAX4, ELSET=E\n'
+            '1, 1, 2, 3, 4\n*MATERIAL, NAME=M\n*ELASTIC\n1000., 0.\n*SOLID SECTION, ELSET=E, MATERIAL=M\n*NSET, NSET=FOOT\n1, 2\n'
+            '*BOUNDARY\nFOOT, ZASYMM\n3, 2, 2, 0.5\n*STEP\n*STATIC\n*BOUNDARY\n3, 2, 2, 0.\n9, 1, 2\n*CLOAD\n4, 2, 3.\n9, 2, 1.\n*END STEP\n')
+    said, deck, _, _ = translated(program, folder, 'axis.inp', axis)
+    text = read_text(os.path.join(folder, 'new.lis'))
+    force = re.search(r'axial force \(along z\) +(\S+)', text)
+    faults += [] if force and abs(float(force.group(1)) - 3.0) < 1e-9 else [f'force on the axis: {force and force.group(0)}']
+    faults += [f'in the deck: {words}' for words in ('\n9, ', 'MOVEDNODES', 'E-017') if words in deck]
+    return faults + [f'not said: {words}' for words in ('*CLOAD on node 9, which no element has',) if words not in said]
+
+
+def nastran_axis(program, folder):
+    """FORCEAX on a ring whose radius is rounding of 0 is the force itself"""
+    deck = scenes.nastran().replace('LOAD = 10', 'LOAD = 5').replace('ENDDATA', '\n'.join((
+        scenes.small_fields('RINGAX', 901, '', '1.-17', '0.', '', '', 346), scenes.small_fields('RINGAX', 902, '', '.1', '0.', '', '', 346),
+        scenes.small_fields('RINGAX', 903, '', '.1', '.1', '', '', 3456), scenes.small_fields('RINGAX', 904, '', '-1.-17', '.1', '', '', 3456),
+        scenes.small_fields('CTRAPAX', 901, 1, 901, 902, 903, 904), scenes.small_fields('FORCEAX', 5, 901, 0, '1.', '0.', '0.', '7.'), 'ENDDATA')))
+    translated(program, folder, 'axis.bdf', deck)
+    found = re.search(r'axial force \(along z\) +(\S+)', read_text(os.path.join(folder, 'new.lis')))
+    return [] if found and abs(float(found.group(1)) - 7.0) < 1e-9 else [f'axial force: {found and found.group(0)}']
+
+
+def unknown(program, folder):
+    """A file of no program that is known says so, and nothing of cards of another"""
+    ran = program.run('convert', write(folder, 'x.bdf', 'SOL 101\nCEND\nBEGIN BULK\nGRID,1,,0.,0.\nENDDATA\n'), os.path.join(folder, 'n.dat'))
+    return ran.ended_with(2) + ([] if 'this is no deck of a program that is known' in ran.err and 'NPOIN is' not in ran.err else [ran.err])
+
+
+CONTACT = (
+    # what is between two rings, its stiffness, what the new deck has
+    ('hard', ('*SURFACE INTERACTION, NAME=DRY', '*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=HARD', '*FRICTION', '0.5,',
+              '*CONTACT PAIR, INTERACTION=DRY, TYPE=SURFACE TO SURFACE', 'FIT, HUB'), 100*21000/0.1,
+     ('JOINTS\n! FIT on HUB\n1, 1, ', '2.656505117707799E+001', '1, RESULTANT')),
+    ('linear', ('*SURFACE INTERACTION, NAME=SOFT', '*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR', '5000.',
+                '*CONTACT PAIR, INTERACTION=SOFT', 'HUB, FIT'), 5000.0, ('1, 5.0E+003, 5.0E+003',)),
+    ('tied', ('*TIE, NAME=T', 'FIT, HUB'), 0, ('! nodes that are tied',)))
+
 BAD = (
     # the file, what is changed to what, where the error is, what it says
     ('bdf', 'CTRAPAX 1       1       101     102', 'CTRAPAX 1       1       101     977', r':\d+:33-35', 'there is no such ring'),
@@ -151,6 +235,11 @@ BAD = (
     ('inp', '*STEP', '*INCLUDE, INPUT=a.inp\n*STEP', r':\d+', r'\*INCLUDE is not read'),
     ('inp', 'BORE, P, 8.', 'BOAR, P, 8.', r':\d+:1-4', 'there is no surface of this name'),
     ('inp', '*ELASTIC', '*CONDUCTIVITY', r':\d+', 'material STEEL has no'),
+    ('inp', 'TYPE=CAX8R', 'TYPE=CAXA81', r':\d+', 'no axisymmetric solids'),
+    ('inp', '*STEP', '*TRANSFORM, NSET=ALL\n0., 1., 0., -1., 0., 0.\n*STEP', r':\d+', r'\*TRANSFORM: components along other'),
+    ('inp', '*NSET', '*NGEN\n1, 9\n*NSET', r':\d+', r'\*NGEN: nodes and elements that keywords make'),
+    ('inp', '*SOLID SECTION', '*SOLIDSECTION', r':\d+', 'element 1 has no material, nor have 15 others'),
+    ('inp', '*STEP', '*INSTANCE, NAME=I, PART=P\n0., 0., 0.\n0., 0., 0., 0., 0., 1., 90.\n*STEP', r':\d+', 'an instance that is turned'),
 )
 
 
@@ -172,6 +261,8 @@ def tests(program):
     def test(name, function, *arguments):
         return Test(f'legacy translated: {name}', lambda folder: function(program, folder, *arguments))
 
-    return ([test(name.__name__.replace('_', ' '), name) for name in (inputs, fields, nastran, nastran_lame, ring_forces, abaqus_loads)]
+    return ([test(name.__name__.replace('_', ' '), name) for name in (inputs, fields, nastran, nastran_lame, nastran_axis, ring_forces,
+                                                             abaqus_loads, abaqus_apart, abaqus_places, unknown)]
             + [test(f'Abaqus, {kind}', abaqus, kind, share) for kind, share in (('CAX8R', 1e-6), ('CAX8', 1e-5), ('CAX4', 2e-3))]
+            + [test(f'Abaqus, contact, {name}', abaqus_contact, *more) for name, *more in CONTACT]
             + [test(f'bad {kind}, {words}', bad, kind, old, new, place, words) for kind, old, new, place, words in BAD])

@@ -1,0 +1,220 @@
+!> Materials of Abaqus and CalculiX
+module axijoint_legacy_abaqus_materials
+   use axijoint_base_kinds, only : wp
+   use axijoint_base_number_map, only : find_number
+   use axijoint_base_text, only : to_text
+   use axijoint_deck_text_diagnostics, only : add_error, add_warning
+   use axijoint_legacy_abaqus_lines, only : line_type, next_line, is_data, parameter_of, field_of, real_of, fault_of, line_data
+   use axijoint_legacy_abaqus_mesh, only : abaqus_type
+   use axijoint_legacy_abaqus_parameters, only : leave_data
+   use axijoint_legacy_cards, only : cards_type
+   use axijoint_legacy_list, only : set_type, find_set
+   use axijoint_legacy_sketch, only : sketch_type, leave_out, part_materials, part_yield
+   use axijoint_legacy_words, only : put, exact
+   implicit none
+   private
+   public :: material_type, read_property, assign_material, put_materials
+
+   !> A material
+   type :: material_type
+      !> Young's modulus, Poisson's ratio, density
+      real(wp) :: young = 0.0_wp, poisson = 0.0_wp, density = 0.0_wp
+      !> Yield stress, zero of a material that does not yield, and what it gains by a plastic strain of one
+      real(wp) :: strength = 0.0_wp, hardening = 0.0_wp
+   end type material_type
+
+contains
+
+   !> *ELASTIC, *DENSITY or *PLASTIC of the material that was named last
+   subroutine read_property(cards, line, at, material, materials, sketch)
+      !> The file
+      type(cards_type), intent(inout) :: cards
+      !> The keyword
+      type(line_type), intent(in) :: line
+      !> Its card; that of its data on return
+      integer, intent(inout) :: at
+      !> The material
+      integer, intent(in) :: material
+      !> All materials
+      type(material_type), intent(inout) :: materials(:)
+      !> Takes what is not translated
+      type(sketch_type), intent(inout) :: sketch
+
+      if (material == 0) then
+         call fault_of(cards, line, 0, 'no material is named above', '*MATERIAL, NAME=')
+      else if (line%keyword == 'PLASTIC') then
+         call read_plastic(cards, line, at, materials(material), sketch)
+      else
+         call read_elastic(cards, line, at, materials(material), sketch)
+      end if
+   end subroutine read_property
+
+   !> *ELASTIC and *DENSITY
+   subroutine read_elastic(cards, line, at, material, sketch)
+      !> The file
+      type(cards_type), intent(inout) :: cards
+      !> The keyword
+      type(line_type), intent(in) :: line
+      !> Its card; that of its data on return
+      integer, intent(inout) :: at
+      !> The material
+      type(material_type), intent(inout) :: material
+      !> Takes what is not translated
+      type(sketch_type), intent(inout) :: sketch
+
+      type(line_type) :: data
+
+      if (line%keyword == 'ELASTIC' .and. index(parameter_of(line, 'TYPE')//'ISO', 'ISO') /= 1) then
+         call fault_of(cards, line, field_of(line, 'TYPE'), '*ELASTIC of this type is not translated', &
+            'isotropic materials: TYPE=ISOTROPIC, or no TYPE, and E, nu')
+         return
+      end if
+      call next_line(cards, at, data)
+      if (data%kind /= line_data) then
+         call fault_of(cards, line, 0, '*'//line%keyword//' has no values')
+         at = at - 1
+         return
+      end if
+      if (line%keyword == 'DENSITY') then
+         material%density = real_of(cards, data, 1)
+      else
+         material%young = real_of(cards, data, 1)
+         material%poisson = real_of(cards, data, 2)
+      end if
+      at = data%card
+      do while (is_data(cards, at, data))
+         call leave_out(sketch, data%card, '*'//line%keyword//' of other temperatures than that of '// &
+            'its first line')
+      end do
+   end subroutine read_elastic
+
+   !> *PLASTIC: yield stress and plastic strain a line
+   subroutine read_plastic(cards, line, at, material, sketch)
+      !> The file
+      type(cards_type), intent(inout) :: cards
+      !> The keyword
+      type(line_type), intent(in) :: line
+      !> Its card; that of its data on return
+      integer, intent(inout) :: at
+      !> The material
+      type(material_type), intent(inout) :: material
+      !> Takes what is not translated
+      type(sketch_type), intent(inout) :: sketch
+
+      type(line_type) :: data
+      real(wp) :: strain, stress
+      integer :: n
+
+      if (all(parameter_of(line, 'HARDENING') /= [character(len=9) :: '', 'ISOTROPIC'])) then
+         call leave_data(cards, line, at, sketch)
+         return
+      end if
+      n = 0
+      do while (is_data(cards, at, data))
+         n = n + 1
+         stress = real_of(cards, data, 1)
+         strain = real_of(cards, data, 2)
+         if (abs(real_of(cards, data, 3)) > 0.0_wp) call leave_out(sketch, data%card, '*PLASTIC at other temperatures')
+         if (n == 1) then
+            material%strength = stress
+            if (.not. stress > 0.0_wp .or. abs(strain) > 0.0_wp) call fault_of(cards, data, 0, &
+               'this is no beginning of yield', 'a yield stress above 0, and a plastic strain of 0')
+         else if (n == 2) then
+            if (.not. (stress >= material%strength .and. strain > 0.0_wp)) then
+               call fault_of(cards, data, 0, 'this is no hardening', 'no less yield stress, at more plastic strain')
+               cycle
+            end if
+            material%hardening = (stress - material%strength)/strain
+            call add_warning(cards%diagnostics, data%card, 0, 0, 'hardening goes on beyond this line as up to it')
+         else
+            call leave_out(sketch, data%card, '*PLASTIC beyond its second line')
+         end if
+      end do
+      if (n == 0) call fault_of(cards, line, 0, '*PLASTIC has no values')
+   end subroutine read_plastic
+
+   !> *SOLID SECTION: the material of a set of elements
+   subroutine assign_material(cards, line, names, mesh)
+      !> The file
+      type(cards_type), intent(inout) :: cards
+      !> The keyword
+      type(line_type), intent(in) :: line
+      !> Names of the materials
+      type(set_type), intent(in), allocatable :: names(:)
+      !> The mesh
+      type(abaqus_type), intent(inout) :: mesh
+
+      integer :: set, material, k, element
+
+      set = find_set(mesh%element_sets, parameter_of(line, 'ELSET'))
+      material = find_set(names, parameter_of(line, 'MATERIAL'))
+      if (set == 0) call fault_of(cards, line, 0, 'there is no set '//parameter_of(line, 'ELSET'), &
+         'sets that are above')
+      if (material == 0) call fault_of(cards, line, 0, 'there is no material '// &
+         parameter_of(line, 'MATERIAL'), 'a name of *MATERIAL')
+      if (set == 0 .or. material == 0) return
+      do k = 1, mesh%element_sets(set)%list%n
+         element = find_number(mesh%element_map, mesh%element_sets(set)%list%value(k))
+         if (element > 0) mesh%material(element) = material
+      end do
+   end subroutine assign_material
+
+   !> Cards of materials. Here gravity and rotation act on all elements: those that are spared get
+   !> materials of their own without density, which are numbered behind the others
+   subroutine put_materials(cards, names, materials, mesh, weightless, sketch)
+      !> The file
+      type(cards_type), intent(inout) :: cards
+      !> Names of the materials, and what they are
+      type(set_type), intent(in), allocatable :: names(:)
+      type(material_type), intent(in) :: materials(:)
+      !> The mesh
+      type(abaqus_type), intent(in) :: mesh
+      !> Which elements are spared
+      logical, intent(in) :: weightless(:)
+      !> Takes the cards
+      type(sketch_type), intent(inout) :: sketch
+
+      integer :: k
+
+      do k = 1, size(materials)
+         if (.not. materials(k)%young > 0.0_wp) call add_error(cards%diagnostics, names(k)%card, &
+            0, 0, 'material '//names(k)%name//' has no *ELASTIC', allowed='E > 0')
+         if (.not. (any(spared(k)) .and. all(spared(k) .or. mesh%material(:size(weightless)) /= k))) &
+            call put_one(k, materials(k)%density, names(k)%name)
+      end do
+      do k = 1, size(materials)
+         if (any(spared(k))) call put_one(size(materials) + k, 0.0_wp, names(k)%name// &
+            ' of elements on which neither gravity nor rotation acts: without density')
+      end do
+
+   contains
+
+      !> Elements of a material that are spared
+      function spared(material)
+         !> The material
+         integer, intent(in) :: material
+         !> Whether an element is
+         logical :: spared(size(weightless))
+
+         spared = weightless .and. mesh%material(:size(weightless)) == material
+      end function spared
+
+      !> Card of a material
+      subroutine put_one(number, density, remark)
+         !> Its number
+         integer, intent(in) :: number
+         !> Its density
+         real(wp), intent(in) :: density
+         !> What it is
+         character(len=*), intent(in) :: remark
+
+         call put(sketch%parts(part_materials), '! '//remark)
+         call put(sketch%parts(part_materials), to_text(number)//', '// &
+            exact(materials(k)%young)//', '//exact(materials(k)%poisson)//', '//exact(density))
+         if (materials(k)%strength > 0.0_wp) call put(sketch%parts(part_yield), to_text(number)//', MISES, '// &
+            exact(materials(k)%strength)//', , , '//exact(materials(k)%hardening))
+      end subroutine put_one
+
+   end subroutine put_materials
+
+end module axijoint_legacy_abaqus_materials
