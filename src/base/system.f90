@@ -5,7 +5,7 @@ module axijoint_base_system
    implicit none
    private
    public :: path_kind, target_kind, is_directory, same_file, rename_path, unlink_path, sync_path, start_sync
-   public :: peak_memory_mb, process_id, error_output_is_terminal
+   public :: peak_memory_mb, forget_peak_memory, process_id, error_output_is_terminal
    public :: return_freed_memory, keep_freed_memory, ignore_file_size_signal, last_error, set_last_error, error_text
    public :: make_directories, read_standard_input, append_to_file
    public :: path_absent, path_file, path_directory, path_link, path_other
@@ -106,6 +106,10 @@ module axijoint_base_system
          import :: c_long
          integer(c_long) :: c_peak_memory
       end function c_peak_memory
+
+      !> Count that memory anew; system_shim.c
+      subroutine forget_peak_memory() bind(c, name="axijoint_forget_peak_memory")
+      end subroutine forget_peak_memory
 
       !> POSIX getpid
       function c_getpid() bind(c, name="getpid")

@@ -18,7 +18,7 @@ module axijoint_command_envelope
    use axijoint_job_read, only : read_job
    use axijoint_model_load, only : increment_type, combination_type
    use axijoint_model_model, only : model_type, can_yield, bodies_yield
-   use axijoint_output_file_echo, only : deck_text
+   use axijoint_output_state, only : hash_of_files
    use axijoint_study_directions, only : spread_directions
    use axijoint_study_envelope, only : capacity_type, search_direction
    use axijoint_study_envelope_files, only : write_envelope
@@ -238,7 +238,7 @@ contains
       integer :: k, n_before
 
       allocate (rows(size(directions, 2)))
-      call open_journal(undertaking%stem//'.rows', program_version//deck_text(job%source)// &
+      call open_journal(undertaking%stem//'.rows', program_version//hash_of_files(job%source)// &
          command%cases//' '//to_text(command%n_directions)//' '//to_text(command%tolerance), &
          n_kept, journal, rows, put_aside, error)
       if (allocated(error)) return

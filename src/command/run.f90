@@ -4,9 +4,11 @@ module axijoint_command_run
    use axijoint_analysis_core_results, only : results_type
    use axijoint_base_error, only : error_type, fatal_error, exit_ok, exit_deck, exit_io, &
       exit_in_use, exit_state, exit_stopped
+   use axijoint_base_kinds, only : wp
+   use axijoint_base_memory, only : give_back_memory
    use axijoint_base_progress, only : show_progress, clear_progress, tell_below
    use axijoint_base_stop, only : heed_signals, check_stop
-   use axijoint_base_system, only : error_output_is_terminal, target_kind, path_file
+   use axijoint_base_system, only : error_output_is_terminal, target_kind, path_file, peak_memory_mb, forget_peak_memory
    use axijoint_base_sha256, only : sha256
    use axijoint_base_text, only : to_text
    use axijoint_base_timer, only : phase_write
@@ -85,6 +87,7 @@ contains
       codes = exit_ok
       do k = 1, size(codes)
          n_begun = k
+         if (k > 1) call begin_anew()
          associate (deck => command%decks(k)%text)
             call run_deck(deck, command, claim, codes(k), error)
             if (allocated(error)) then
@@ -99,6 +102,15 @@ contains
       end do
    end subroutine run_in_order
 
+
+   !> What a deck before has taken is no memory of the next one
+   subroutine begin_anew()
+      !> Less is kept for the next one, which is faster so [MiB]
+      real(wp), parameter :: worth_giving_back = 256.0_wp
+
+      if (peak_memory_mb() > worth_giving_back) call give_back_memory()
+      call forget_peak_memory()
+   end subroutine begin_anew
 
    !> Which of several decks did not end well, so that nobody has to look for them in what was said of all
    pure function failed_decks(decks, codes, n) result(text)

@@ -18,7 +18,7 @@ module axijoint_command_study
    use axijoint_deck_text_field, only : kind_word, kind_code
    use axijoint_job_job, only : job_name
    use axijoint_model_model, only : model_type
-   use axijoint_output_file_echo, only : deck_text
+   use axijoint_output_state, only : hash_of_files
    use axijoint_study_files, only : write_study
    use axijoint_study_journal, only : journal_type, open_journal, read_journal, append_row, &
       close_journal
@@ -202,8 +202,8 @@ contains
       if (allocated(error)) return
       study%names = quantity_names(model)
       study%name = job_name(path)//'.study'
-      study%key = program_version//new_line('a')//deck_text(study%rows%source)//new_line('a')// &
-         deck_text(study%table%source)//merge('estimates', '         ', command%estimates)
+      study%key = program_version//new_line('a')//hash_of_files(study%rows%source)//new_line('a')// &
+         hash_of_files(study%table%source)//merge('estimates', '         ', command%estimates)
       if (command%options%solver_given) study%key = study%key//command%options%solver%name
       study%rows%progress%logged = command%verbose .and. speaks(command)
       study%rows%progress%enabled = error_output_is_terminal() .and. speaks(command) .and. &
@@ -370,6 +370,7 @@ contains
 
       character(len=:), allocatable :: put_aside
       logical :: there, ours, torn
+      integer :: n_others
 
       associate (stem => study%undertaking%stem, part => command%part)
          call open_journal(journal_path(stem, part), study%key, size(study%names), journal, done, &
@@ -377,7 +378,9 @@ contains
          if (allocated(error)) return
          if (part%number == 0) then
             call gather_parts(study%undertaking%directory, study%undertaking%name, study%key, &
-               size(study%names), done)
+               size(study%names), done, n_others)
+            if (n_others > 0) call tell_below('axijoint: rows of '//count_of(n_others, 'part')//' of another study of this '// &
+               'name, deck, table or options changed, are left as they are')
          else
             call read_journal(journal_path(stem, whole), study%key, size(study%names), done, there, &
                ours, torn)

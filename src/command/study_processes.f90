@@ -73,7 +73,7 @@ contains
       type(child_type) :: children(n_processes)
       type(part_type) :: part
       integer :: attempts(n_processes)
-      integer :: k, look
+      integer :: k, look, n_others
       logical :: asked
 
       do k = 1, size(children)
@@ -97,14 +97,14 @@ contains
             asked = .true.
          end if
          if (mod(look, looks) == 0 .and. (progress%enabled .or. progress%logged)) then
-            call gather_parts(undertaking%directory, undertaking%name, key, n_quantities, done)
+            call gather_parts(undertaking%directory, undertaking%name, key, n_quantities, done, n_others)
             call show_progress(progress, 'row '//to_text(count(done%number > 0))//' of '// &
                to_text(size(done))//' by '//to_text(size(children))//' processes')
          end if
          look = look + 1
          call pause_a_moment()
       end do
-      call gather_parts(undertaking%directory, undertaking%name, key, n_quantities, done)
+      call gather_parts(undertaking%directory, undertaking%name, key, n_quantities, done, n_others)
       call forget_locks(undertaking, size(children))
       call check_stop(error)
       if (allocated(error)) return

@@ -1,6 +1,7 @@
 !> Whether an earlier run of a job is done: its results are there, complete, and would be the same
 module axijoint_output_done
    use axijoint_analysis_core_results, only : round_type
+   use axijoint_base_kinds, only : i8
    use axijoint_base_sha256, only : sha256
    use axijoint_base_state_file, only : state_mark_type
    use axijoint_base_system, only : path_kind, path_absent, path_file
@@ -8,7 +9,7 @@ module axijoint_output_done
    use axijoint_base_whole_file, only : read_whole_file
    use axijoint_job_combination, only : combination_label
    use axijoint_job_job, only : job_type, job_name, result_name
-   use axijoint_output_file_names, only : files_of, final_path, file_summary, state_ending
+   use axijoint_output_file_names, only : endings, files_of, final_path, file_summary, state_ending
    use axijoint_output_file_pending, only : join_path
    use axijoint_output_state, only : mark_of, is_another
    implicit none
@@ -43,7 +44,7 @@ contains
 
       code = -1
       if (path_kind(join_path(job%options%directory, job_name(job%deck)//state_ending)) /= path_absent) return
-      hash = hash_of_mark(mark_of(job), files_of(job%model))
+      hash = hash_of_mark(mark_of(job), files_of(job%model), job%options%estimated)
       do k = 1, size(job%model%combinations)
          found = code_of_combination(job, result_name(job, combination_label(job, k)), hash)
          code = merge(max(code, found), -1, found >= 0)
@@ -61,6 +62,7 @@ contains
       character(len=*), parameter :: key = '"exit_code": '
       character(len=:), allocatable :: summary
       integer, allocatable :: files(:)
+      integer(i8) :: bytes
       integer :: errno, i, place
 
       code = -1
@@ -69,14 +71,35 @@ contains
       files = files_of(job%model)
       do i = 1, size(files)
          if (path_kind(final_path(job%options%directory, name, files(i))) /= path_file) return
+         if (files(i) == file_summary) cycle
+         inquire (file=final_path(job%options%directory, name, files(i)), size=bytes)
+         if (bytes /= bytes_in(summary, files(i))) return
       end do
       place = index(summary, key) + len(key)
       read (summary(place:place + 1), *, iostat=errno) code
    end function code_of_combination
 
+   !> Bytes of a file as its summary has them; negative if it does not say
+   integer(i8) function bytes_in(summary, file) result(bytes)
+      !> The summary
+      character(len=*), intent(in) :: summary
+      !> The file, index of its ending
+      integer, intent(in) :: file
+
+      integer :: first, last, errno
+
+      bytes = -1
+      associate (key => '"'//trim(endings(file))//'": ')
+         first = index(summary, key) + len(key)
+         if (first == len(key)) return
+      end associate
+      last = first + verify(summary(first:)//',', '0123456789') - 2
+      read (summary(first:last), *, iostat=errno) bytes
+   end function bytes_in
+
    !> What tells a job from others whose results differ, as its summary has it: hash of the program and its version, of all files
-   !> of the deck as it was first read, of the solver that was asked for, and of which files are written. Empty where more memory
-   !> may tell more: a round of refinement had none
+   !> of the deck as it was first read, of the solver that was asked for, of which files are written, and whether errors are
+   !> estimated. Empty where more memory may tell more: a round of refinement had none
    function job_hash(job, rounds) result(hash)
       !> The job, its state begun
       type(job_type), intent(in) :: job
@@ -94,15 +117,17 @@ contains
             if (allocated(rounds(k)%failure)) return
          end do
       end if
-      hash = hash_of_mark(job%checkpoint%mark, files_of(job%model))
+      hash = hash_of_mark(job%checkpoint%mark, files_of(job%model), job%options%estimated)
    end function job_hash
 
    !> The same of what a state would be of, and files
-   function hash_of_mark(mark, files) result(hash)
+   function hash_of_mark(mark, files, estimated) result(hash)
       !> What a state would be of
       type(state_mark_type), intent(in) :: mark
       !> Files that are written, by number
       integer, intent(in) :: files(:)
+      !> Whether errors are estimated
+      logical, intent(in) :: estimated
       !> The hash
       character(len=64) :: hash
 
@@ -113,6 +138,7 @@ contains
       do i = 1, size(files)
          text = text//new_line('a')//to_text(files(i))
       end do
+      if (.not. estimated) text = text//new_line('a')//'no estimates'
       hash = sha256(text)
    end function hash_of_mark
 

@@ -4,6 +4,7 @@ module axijoint_output_output
    use axijoint_analysis_core_results, only : results_type, remark_type
    use axijoint_analysis_core_series, only : series_type
    use axijoint_base_error, only : error_type, fatal_error, exit_io, exit_internal
+   use axijoint_base_kinds, only : i8
    use axijoint_base_last_words, only : note_lock, forget_lock
    use axijoint_base_lock, only : lock_type, take_lock, release_lock
    use axijoint_base_process, only : host_name
@@ -20,10 +21,11 @@ module axijoint_output_output
    use axijoint_output_claim, only : spare_sources
    use axijoint_output_file_echo, only : deck_path
    use axijoint_output_file_hdf5, only : hdf5_file_type
+   use axijoint_output_file_json, only : json_string
    use axijoint_output_file_names, only : endings, file_arrays, file_listing, file_summary, &
       file_bodies, file_joints, file_old_listing, files_of, final_path, journal_ending, lock_ending, &
       state_ending, stop_ending, put_aside
-   use axijoint_output_file_pending, only : join_path, check_name
+   use axijoint_output_file_pending, only : join_path, check_name, temporary_path
    use axijoint_output_file_run, only : run_type, new_run, exit_code_of, status_error
    use axijoint_output_file_set, only : commit_set
    use axijoint_output_file_text, only : text_file_type
@@ -186,7 +188,7 @@ contains
       if (.not. allocated(error)) &
          call summary%open(final_path(directory, name, file_summary), error)
       if (.not. allocated(error)) then
-         call write_summary(summary, run, messages, job, results, series)
+         call write_summary(summary, run, messages, job, results, series, sizes_json(directory, name, files))
          call summary%finish(error)
       end if
 
@@ -247,6 +249,30 @@ contains
       end subroutine write_arrays_and_listing
 
    end subroutine write_files
+
+   !> Bytes of the files that are finished
+   function sizes_json(directory, name, files) result(json)
+      !> Their directory and name
+      character(len=*), intent(in) :: directory, name
+      !> Indices of their endings, the summary among them, which does not count
+      integer, intent(in) :: files(:)
+      !> JSON object, by ending
+      character(len=:), allocatable :: json
+
+      character(len=24) :: digits
+      integer(i8) :: bytes
+      integer :: k
+
+      json = '{'
+      do k = 1, size(files)
+         if (files(k) == file_summary) cycle
+         inquire (file=temporary_path(final_path(directory, name, files(k))), size=bytes)
+         write (digits, '(i0)') bytes
+         if (len(json) > 1) json = json//', '
+         json = json//json_string(trim(endings(files(k))))//': '//trim(digits)
+      end do
+      json = json//'}'
+   end function sizes_json
 
    !> Sizes of the files of swept bodies and joints
    function pictures_of(name, bodies, surfaces) result(pictures)

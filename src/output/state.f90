@@ -18,7 +18,7 @@ module axijoint_output_state
    use axijoint_output_file_pending, only : join_path
    implicit none
    private
-   public :: begin_state, end_state, stopped_text, note_written, is_written, remove_stop_file, mark_of, is_another
+   public :: begin_state, end_state, stopped_text, note_written, is_written, remove_stop_file, mark_of, is_another, hash_of_files
 
    !> Number of what the bytes of a state mean: another wherever that changes
    character(len=*), parameter :: layout = '6'
@@ -221,7 +221,7 @@ contains
       type(state_mark_type) :: mark
 
       mark%program = program_name//' '//program_version//', layout '//layout
-      mark%deck = hash_of(job%source)
+      mark%deck = hash_of_files(job%source)
       mark%options = 'of the deck'
       if (job%options%solver_given) then
          mark%options = 'of the program''s choice'
@@ -230,8 +230,8 @@ contains
       mark%place = ''
    end function mark_of
 
-   !> Hash of all files of a deck
-   function hash_of(source) result(hash)
+   !> Hash of all files of a deck, that of its mesh among them
+   function hash_of_files(source) result(hash)
       !> The deck
       type(source_type), intent(in) :: source
       !> The hash
@@ -245,7 +245,7 @@ contains
          hashes = hashes//sha256(source%files(k)%bytes)
       end do
       hash = sha256(hashes)
-   end function hash_of
+   end function hash_of_files
 
    !> The job is done: there is nothing to go on from. Files of these names that are no states stay
    subroutine end_state(job)

@@ -42,7 +42,7 @@ module axijoint_output_summary
 contains
 
    !> Summary of a finished run
-   subroutine write_summary(file, run, messages, job, results, series)
+   subroutine write_summary(file, run, messages, job, results, series, file_bytes)
       !> The file
       class(text_file_type), intent(inout) :: file
       !> Name tags of the run
@@ -55,11 +55,14 @@ contains
       type(results_type), intent(in) :: results
       !> What is followed from increment to increment
       type(series_type), intent(in) :: series
+      !> Bytes of the other files of the run, JSON object
+      character(len=*), intent(in) :: file_bytes
 
       associate (model => job%model)
          call write_tags(file, run, status_name(results), messages, json_string(model%title))
          call put_pair(file, "deck_sha256", json_string(sha256(deck_text(job%source))))
          call put_pair(file, "job_sha256", json_string(job_hash(job, results%rounds)))
+         call put_pair(file, "file_bytes", file_bytes)
          call put_pair(file, "combination", json_number(results%combination))
          call put_pair(file, "nodes", json_number(n_nodes(model%mesh)))
          call put_pair(file, "elements", json_number(n_elements(model%mesh)))

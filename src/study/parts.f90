@@ -93,13 +93,15 @@ contains
 
    !> Take the rows that parts have done, however many there are. Those that a part found no memory
    !> for are not done: who gathers them may have more, as he shares it with none by then
-   subroutine gather_parts(directory, name, key, n_quantities, rows)
+   subroutine gather_parts(directory, name, key, n_quantities, rows, n_others)
       !> Directory and name of the study's files, and what tells it from others
       character(len=*), intent(in) :: directory, name, key
       !> Quantities of a row
       integer, intent(in) :: n_quantities
       !> Rows by number; takes those that are done
       type(row_type), intent(inout) :: rows(:)
+      !> Parts that hold rows of another study
+      integer, intent(out) :: n_others
 
       character(len=:), allocatable :: names
       logical :: there, ours, torn, before(size(rows))
@@ -107,11 +109,13 @@ contains
 
       names = names_in(directory, name//'.', rows_ending)
       before = rows%number > 0
+      n_others = 0
       first = 1
       do while (first < len(names))
          last = first + index(names(first:), new_line('a')) - 2
          call read_journal(join_path(directory, names(first:last)), key, n_quantities, rows, there, &
             ours, torn)
+         if (there .and. .not. ours) n_others = n_others + 1
          do k = 1, size(rows)
             if (rows(k)%code == exit_memory .and. .not. before(k)) rows(k) = row_type()
          end do

@@ -487,6 +487,20 @@ def taken_back(program, folder):
     return faults + expected('done before', [False, False, True], ['2 rows of 4 were done before' in err for err in said])
 
 
+def another_mesh(program, folder):
+    """Rows of another mesh are none of a study, nor directions of an envelope: what parts left of it is told, and stays"""
+    mesh = read_text(os.path.join(INPUTS, 'peg.msh'))
+    deck, table = write(folder, 'peg.dat', input_deck('peg.dat')), write(folder, 'rows.csv', 'LAWS 1 PHI\n30; 31; 32; 33\n')
+    words, faults = 'rows of 1 part of another study of this name', []
+    for rounds, (said, left) in enumerate(((False, 0), (True, 1))):
+        write(folder, 'peg.msh', mesh)
+        faults += program.run('study', table, deck, '-o', folder, '--part', '1/2', '--quiet', folder=folder).ended_with(0)
+        write(folder, 'peg.msh', mesh + '\n'*rounds)
+        ran = program.run('study', table, deck, '-o', folder, '--part', '0/2', folder=folder)
+        faults += ran.ended_with(0) + expected(f'mesh {rounds}', (said, left), (words in ran.err, len(glob.glob(f'{folder}/*.rows'))))
+    return faults
+
+
 def bad_rows(program, folder):
     """Values that a deck cannot have together: the row says so, the others are solved"""
     table = 'MATERIALS 1 E, LAWS 1 kind of law, LAWS 1 phi\n2E4,,\n2E4,ELASTIC,20\n1E4,,\n'
@@ -749,6 +763,7 @@ def tests(program):
         Test('studies/taken names', lambda folder: taken_names(program, folder)),
         Test('studies/files of others', lambda folder: files_of_others(program, folder)),
         Test('studies/taken back', lambda folder: taken_back(program, folder)),
+        Test('studies/another mesh', lambda folder: another_mesh(program, folder)),
         Test('studies/as written', lambda folder: as_written(program, folder)),
         Test('studies/bad rows', lambda folder: bad_rows(program, folder)),
         Test('studies/samples', lambda folder: samples(program, folder)),

@@ -8,7 +8,7 @@ from support import HERE, Test, read_text, write
 
 FOLDER = os.path.join(HERE, 'alike')
 # Keys of the summary that depend on when and where a job was run, and on its deck's text
-PASSING = ('date', 'run', 'deck', 'deck_sha256', 'job_sha256', 'title', 'seconds', 'error_seconds', 'increment_seconds', 'peak_memory_mb')
+PASSING = ('date', 'run', 'deck', 'deck_sha256', 'job_sha256', 'file_bytes', 'title', 'seconds', 'error_seconds', 'increment_seconds', 'peak_memory_mb')
 
 
 def sections(deck):

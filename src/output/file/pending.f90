@@ -146,7 +146,7 @@ contains
 
       cause = "the system gives no cause"
       if (errno /= 0) cause = error_text(errno)
-      mend = "make room and allow writing there, or choose another directory (-o of run, study and envelope); "// &
+      mend = "make room and allow writing there, or choose another directory (of run, study and envelope by -o); "// &
          "an earlier file of this name is left as it was"
       if (is_too_long(errno)) mend = "a shorter name, or a shorter path: endings are added to it"
       call fatal_error(error, exit_io, "cannot "//action//" "//path//": "//cause//new_line("a")// &
