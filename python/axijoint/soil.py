@@ -15,8 +15,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from . import circle
-from .soil_joints import FORCE, MOMENT, along_axis, joint_values, sides_of
+from .resultants import AXIAL, FORCE, MOMENT, along
+from .soil_joints import along_axis, joint_values, sides_of
 from .table import Table
 
 
@@ -80,7 +80,7 @@ class SoilReactions:
         count, n = self.p.shape
         columns = {"increment": np.repeat(self.increment, n), "load_factor": np.repeat(self.load_factor, n),
                    "z_low": np.tile(self.low, count), "z_high": np.tile(self.high, count),
-                   "z": np.tile(self.z, count)}
+                   "z": np.tile(self.z, count), "theta": np.full(count*n, self.theta)}
         names = ("v", "p", "psi", "m", "s", "t", "v_relative", "s_relative")
         return Table(columns | {name: getattr(self, name).ravel() for name in names})
 
@@ -88,7 +88,7 @@ class SoilReactions:
         """A row for each increment."""
         names = ("v_b", "H_b", "psi_b", "M_b", "s_b", "V_b")
         return Table({"increment": self.increment, "load_factor": self.load_factor,
-                      "z": np.full(len(self.increment), self.base_z)}
+                      "z": np.full(len(self.increment), self.base_z), "theta": np.full(len(self.increment), self.theta)}
                      | {name: getattr(self, name) for name in names})
 
 
@@ -153,13 +153,11 @@ def _cut_values(result, body, theta, rows):
     if len(cuts) < 2:
         raise NoShaftError(f"the deck has fewer than two CUTS of body {body}")
     z = result.read("cuts/z")[cuts]
-    c, s = circle.cosine(theta), circle.sine(theta)
 
-    def along(values):  # axial, along theta, leaning
-        force, moment = (c*values[..., k[0]] + s*values[..., k[1]] for k in (FORCE, MOMENT))
-        return values[..., 0], force, -moment
-    axial, shear, lean = along(result.history["cuts"][rows][:, cuts])
-    up, aside, turn = along(result.history["cut_motion"][rows][:, cuts])
+    def turned(values):  # axial, along theta, leaning
+        return values[..., AXIAL], along(values, FORCE, theta), -along(values, MOMENT, theta)
+    axial, shear, lean = turned(result.history["cuts"][rows][:, cuts])
+    up, aside, turn = turned(result.history["cut_motion"][rows][:, cuts])
     length, middle = np.diff(z), (lambda values: (values[:, 1:] + values[:, :-1])/2)
     p = np.diff(shear, axis=1)/length
     m = np.diff(lean, axis=1)/length + shear[:, 1:] - p*length/2

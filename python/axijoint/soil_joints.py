@@ -3,9 +3,7 @@ import numpy as np
 
 from . import circle, elements
 from .mesh import SIDES
-
-# Columns of resultants along theta = 0 and 90 degrees
-FORCE, MOMENT = (1, 4), (2, 5)
+from .resultants import AXIAL, FORCE, MOMENT, along
 
 
 def joint_values(result, body, theta, numbers, rows):
@@ -33,9 +31,7 @@ def sides_of(mesh, body):
 
 def _turned(resultants, theta):
     """Resistances (V downwards, H, leaning M) from forces on side 1-2: (increments, joints, 3)."""
-    c, s = circle.cosine(theta), circle.sine(theta)
-    force, moment = (c*resultants[..., k[0]] + s*resultants[..., k[1]] for k in (FORCE, MOMENT))
-    return np.stack([resultants[..., 0], -force, moment], -1)
+    return np.stack([resultants[..., AXIAL], -along(resultants, FORCE, theta), along(resultants, MOMENT, theta)], -1)
 
 
 class _Motion:

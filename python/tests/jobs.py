@@ -19,6 +19,15 @@ def run(folder, name, text, exit_code=0):
     return pathlib.Path(folder)/name
 
 
+def turned_monopile(theta):
+    """Text of the deck of the monopile, pushed towards theta [degree]."""
+    text = input_deck("monopile")
+    for load in ("LATERAL       5.0", "MOMENT    -100.0"):
+        name, value = load.split()
+        text = text.replace(f"    1{name:>10}{value:>10}\n", f"1, {name}, {value}, {theta}\n")
+    return text
+
+
 def input_deck(name, *cards):
     """Text of a deck of `inputs`, with further cards before its END."""
     lines = (ROOT/f"inputs/{name}.dat").read_text().rstrip().splitlines()

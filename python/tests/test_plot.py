@@ -287,6 +287,23 @@ class Monopile(unittest.TestCase):
                 np.testing.assert_array_equal(line.get_xdata()[1:], x[:, segment])
                 np.testing.assert_array_equal(line.get_ydata()[1:], y[:, segment])
 
+    def test_points_along_the_load(self):
+        """Force, moment and displacement of POINTS turn with the angle"""
+        path = jobs.run(self.folder.name, "turned", jobs.turned_monopile(60))
+        turned = axijoint.open(f"{path}.h5")
+        (_, figure), = plot.figures(turned, ["points"], plot.Options(angles=(60,)))
+        self.assertEqual(figure.axes[0].get_ylabel(), "applied lateral force [MN]")
+        self.assertAlmostEqual(figure.axes[0].get_lines()[0].get_ydata().max(), 5, 12)
+        for theta, share in ((60, 1), (0, 0.5), (150, 0), (240, -1)):
+            (_, table), = plot.tables(turned, ["points"], plot.Options(angles=(theta,)))
+            (_, pile), = plot.tables(turned, ["pile"], plot.Options(angles=(theta,)))
+            reactions = [one for _, one in plot.tables(turned, ["pisa"], plot.Options(angles=(theta,)))]
+            self.assertEqual({angle for one in (table, pile, *reactions) for angle in one["theta"]}, {theta})
+            np.testing.assert_allclose(table["lateral_force"][5], 5*share, atol=1e-12)
+            np.testing.assert_allclose(table["moment"][5], -125*share, atol=1e-10)
+        (_, figure), = plot.figures(turned, ["points"], plot.Options(angles=(150,)))
+        self.assertEqual(figure.axes[0].get_ylabel(), "applied lateral force at 240° [MN]")
+
     def test_increments_bodies_and_range(self):
         (whole,) = self.figures("deformed", increments=(6,), enlargement=40).items()
         self.assertEqual(whole[0], "deformed_increment_6")
@@ -323,7 +340,7 @@ class Monopile(unittest.TestCase):
             + [f"monopile_{table}.csv" for table in ("increments", "pisa_shaft", "pisa_base")]))
         self.assertIn("#ff0000", pathlib.Path(f"{self.folder.name}/out/monopile_energy.svg").read_text())
         rows = pathlib.Path(f"{self.folder.name}/out/monopile_pisa_base.csv").read_text().splitlines()
-        self.assertEqual((rows[0], len(rows)), ("increment,load_factor,z,v_b,H_b,psi_b,M_b,s_b,V_b", 9))
+        self.assertEqual((rows[0], len(rows)), ("increment,load_factor,z,theta,v_b,H_b,psi_b,M_b,s_b,V_b", 9))
 
     def test_faults_of_the_command_line(self):
         for words, said in ((("mesh", "--depth", "3"), "no kind of mesh heeds --depths; those that do: py"),

@@ -11,8 +11,8 @@ import unittest.mock
 import jobs
 import numpy as np
 
-from axijoint import report
-from axijoint.report import browser, view
+from axijoint import report, units
+from axijoint.report import browser, curves, view
 
 try:
     import plotly
@@ -79,11 +79,35 @@ class Views(unittest.TestCase):
         np.testing.assert_allclose(reals(joints["values"][5][3]), np.maximum(result.at(6).read("joints/jump")[..., 1].ravel(), 0),
                                    atol=1e-5)
         titles = [one["title"] for one in found["curves"]]
-        self.assertEqual(titles, ["Load and displacement", "Shear force of body 1", "Moment of body 1", "Axial force of body 1",
-                                  "Deflection of body 1", "Work and energy"])
+        self.assertEqual(titles, ["Load and displacement at θ = 0°", "Shear force of body 1 at θ = 0°", "Moment of body 1 at θ = 0°",
+                                  "Axial force of body 1", "Deflection of body 1 at θ = 0°", "Work and energy"])
         self.assertAlmostEqual(found["curves"][2]["lines"][0]["x"][5][-1], -100, 3)
         for job in self.jobs["chimney"]:
             self.assertEqual(len(dict(self.check(job, view.data(job)[0]))), len(set(job.result.mesh.element_body)))
+
+    def test_curves_are_along_the_load(self):
+        """A pile that is pushed towards 60 degrees: what it carries and how it moves there, as along 0 where that is pushed towards"""
+        plain = self.jobs["monopile"][0]
+        turned, = report.jobs_of(jobs.run(self.folder.name, "turned", jobs.turned_monopile(60)))
+        found, wanted = (curves.curves(job, range(1, 9)) for job in (turned, plain))
+        self.assertEqual([one["title"].replace("60°", "0°") for one in found], [one["title"] for one in wanted])
+        self.assertIn("Moment of body 1 at θ = 60°", [one["title"] for one in found])
+        self.assertEqual((found[0]["x"], found[0]["y"]), ("u at θ = 60° [m]", "lateral force [MN]"))
+        self.assertAlmostEqual(max(found[0]["lines"][0]["y"]), 5, 4)
+        for one, other in zip(found, wanted):
+            values, straight = (np.array(curve["lines"][0]["x"]) for curve in (one, other))
+            np.testing.assert_allclose(values, straight, rtol=0, atol=0.01*abs(straight).max(), err_msg=one["title"])
+
+    def test_curves_across_the_load(self):
+        """Loads that turn: profiles along the largest of them and across it"""
+        cuts = np.zeros((2, 3, 6))
+        cuts[0, :, 1], cuts[1, :, 4] = 1, 2
+        history = {"applied": cuts[:, 0], "cuts": cuts, "cut_motion": cuts, "increment": np.array([1, 2])}
+        result = unittest.mock.Mock(history=history, read={"cuts/z": np.arange(3.0), "cuts/body": np.zeros(3, int)}.get)
+        job = unittest.mock.Mock(result=result, units=units.Units("", ""))
+        found = {one["title"]: one["lines"][0]["x"] for one in curves._profiles(job, [0, 1])}
+        self.assertEqual(found["Shear force at θ = 90°"], [[0]*3, [2]*3])
+        self.assertEqual(found["Shear force at θ = 0°"], [[1]*3, [0]*3])
 
     def test_data_keep_within_their_size(self):
         job = self.jobs["monopile"][0]

@@ -1,7 +1,7 @@
 """A pile and its ground: soil reactions as curves by depth, deflection and forces along the pile."""
 import numpy as np
 
-from .. import circle
+from ..resultants import AXIAL, FORCE, MOMENT, along
 from ..soil import NoShaftError, cuts_through, pile_of, soil_reactions
 from ..soil_joints import along_axis, sides_of
 from ..table import Table
@@ -158,15 +158,15 @@ def profile_table(result, options):
     numbers = history.increment if options.increments is None else np.asarray(options.increments)
     places = [_row(history, k) for k in numbers]
     z = result.read("cuts/z")[rows]
-    c, s = circle.cosine(options.angle), circle.sine(options.angle)
     force, motion = history["cuts"][places][:, rows], history["cut_motion"][places][:, rows]
 
-    def along(values, first, second):
-        return (c*values[..., first] + s*values[..., second]).ravel()
+    def turned(values, kind):
+        return along(values, kind, options.angle).ravel()
     return Table({"increment": np.repeat(numbers, len(rows)),
                   "load_factor": np.repeat(history["load_factor"][places], len(rows)),
-                  "z": np.tile(z, len(places)), "v": along(motion, 1, 4), "psi": -along(motion, 2, 5),
-                  "H": along(force, 1, 4), "M": -along(force, 2, 5), "N": force[..., 0].ravel()})
+                  "z": np.tile(z, len(places)), "theta": np.full(len(places)*len(rows), options.angle),
+                  "v": turned(motion, FORCE), "psi": -turned(motion, MOMENT),
+                  "H": turned(force, FORCE), "M": -turned(force, MOMENT), "N": force[..., AXIAL].ravel()})
 
 
 def _row(history, increment):

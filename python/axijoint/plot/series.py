@@ -2,31 +2,16 @@
 import numpy as np
 
 from .. import circle
+from ..resultants import AXIAL, FORCE, MOMENT, along, load_of
 from ..table import Table
 from . import style
 from .style import plt
-
-# Resultants that may be the load of a load-displacement curve, and what they are called
-LOADS = ((1, "lateral force"), (2, "moment"), (0, "axial force"), (3, "torque"), (4, "lateral force at 90°"),
-         (5, "moment at 90°"))
-
-
-def load_of(result, units):
-    """Label and values by increment of the load that varies: a resultant, or the load factor."""
-    applied = result.history["applied"]
-    for rows in (applied, np.vstack([np.zeros(6), applied])):
-        for k, name in LOADS:
-            if np.ptp(rows[:, k]) > 1e-6*max(abs(applied[:, k]).max(), 1e-6*abs(applied).max()) > 0:
-                return units.label(f"applied {name}", units.force if k in (0, 1, 4) else units.moment), \
-                    applied[:, k]
-    return "load factor", result.history["load_factor"]
-
 
 @style.styled
 def draw_points(result, options):
     """Load against the displacements of the named points, along theta and along z: a Figure."""
     units, history, theta = style.Units(result, options), result.history, options.angle
-    label, load = load_of(result, units)
+    varied, columns, load = load_of(history, theta)
     figure, axes = plt.subplots(1, 2, figsize=(style.TWO_COLUMNS, 2.9), sharey=True)
     load = np.append(0, load)
     for k, name in enumerate(history.point_names):
@@ -34,7 +19,8 @@ def draw_points(result, options):
         for one, moved in zip(axes, (lateral, vertical)):
             one.plot(np.append(0, moved), load, label=_place(history, name), **style.curve(k))
     _numbers(axes[0], np.append(0, _along(result, history.point_names[0], theta)[0]), load, history.increment)
-    axes[0].set_ylabel(label)
+    axes[0].set_ylabel(varied if columns is None else
+                       units.label(f"applied {varied}", units.force if columns in (AXIAL, FORCE) else units.moment))
     axes[0].set_xlabel(units.of_length(f"displacement along {style.degrees(theta)}"))
     axes[1].set_xlabel(units.of_length("displacement $v$ along $z$"))
     for one in axes:
@@ -50,8 +36,9 @@ def draw_points(result, options):
 
 
 def points_table(result, options):
-    """A row for each increment and point: resultants applied, displacements at an angle."""
+    """A row for each increment and point: resultants applied, and displacements, along an angle."""
     history, rows = result.history, []
+    applied = history["applied"]
     for name in history.point_names:
         r, z = history.point_position(name)
         u, v, w = history.point(name, options.angle).T
@@ -59,8 +46,9 @@ def points_table(result, options):
         count = len(u)
         rows.append({"point": np.full(count, name), "r": np.full(count, r), "z": np.full(count, z),
                      "theta": np.full(count, options.angle), "increment": history.increment,
-                     "load_factor": history["load_factor"], "axial_force": history["applied"][:, 0],
-                     "lateral_force": history["applied"][:, 1], "moment": history["applied"][:, 2],
+                     "load_factor": history["load_factor"], "axial_force": applied[:, AXIAL],
+                     "lateral_force": along(applied, FORCE, options.angle),
+                     "moment": along(applied, MOMENT, options.angle),
                      "u": u, "v": v, "w": w, "lateral": lateral})
     return Table((name, np.concatenate([one[name] for one in rows])) for name in rows[0])
 

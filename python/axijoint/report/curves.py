@@ -1,8 +1,10 @@
 """Curves beside the view: their points for all increments, of which the page shows one."""
 import numpy as np
 
-# Resultants as they are stored, and what a cut calls them
-LATERAL, MOMENT, AXIAL = 1, 2, 0
+from ..resultants import AXIAL, FORCE, MOMENT, along, direction, load_of
+
+# Profiles across the load that are less than this share of those along it are not shown
+SLIGHT = 1e-2
 # A profile needs as many cuts of one body
 LEAST_CUTS = 3
 
@@ -24,51 +26,61 @@ def _number(values):
     return [float(f"{value:.6g}") for value in values]
 
 
+def _at(theta):
+    return f"θ = {theta:g}°"
+
+
 def _unit(name, unit):
     return f"{name} [{unit}]" if unit else name
 
 
 def _displacements(job):
-    """Load against displacement of the named points, along the load that changes most."""
-    history, units = job.result.history, job.units
+    """Load against displacement of the named points, along the lateral load if that changes, else along z."""
+    history, units, theta = job.result.history, job.units, direction(job.result.history)
     names = history.point_names if "points" in history else []
     if not names or len(history.increment) < 2:
         return None
-    applied = history["applied"]
-    lateral = np.ptp(applied[:, LATERAL]) > 0
-    load = applied[:, LATERAL if lateral else AXIAL]
-    what, y = ("u at θ = 0", "lateral load") if lateral else ("v at θ = 0", "axial load")
-    if np.ptp(load) == 0:
-        load, y, unit = history["load_factor"], "load factor", ""
-    else:
-        unit = units.force
-    lines = [{"name": name, "x": _number(history.point(name)[:, 0 if lateral else 1]), "y": _number(load)} for name in names]
-    return {"kind": "history", "title": "Load and displacement", "x": _unit(what, units.length), "y": _unit(y, unit),
+    load_name, columns, load = load_of(history, theta)
+    unit = "" if columns is None else units.force if columns in (AXIAL, FORCE) else units.moment
+    moved = 0 if columns in (FORCE, MOMENT) else 1
+    lines = [{"name": name, "x": _number(history.point(name, theta)[:, moved]), "y": _number(load)} for name in names]
+    return {"kind": "history", "title": f"Load and displacement at {_at(theta)}",
+            "x": _unit(f"{'uv'[moved]} at {_at(theta)}", units.length), "y": _unit(load_name, unit),
             "increments": history.increment.tolist(), "lines": lines}
 
 
 def _profiles(job, rows):
-    """Force, moment and motion along z of each body with several cuts."""
+    """Force, moment and motion along z of each body with several cuts, along the lateral load and, if anything is, across it."""
     result, units = job.result, job.units
     if not result.has("cuts/label"):
         return
     z, body = result.read("cuts/z"), result.read("cuts/body")
-    cuts, motion = result.history["cuts"][rows], result.history["cut_motion"][rows]
+    cuts, motion, theta = result.history["cuts"][rows], result.history["cut_motion"][rows], direction(result.history)
     for number in np.unique(body):
         chosen = np.flatnonzero(body == number)
         if len(chosen) < LEAST_CUTS:
             continue
         chosen = chosen[np.argsort(z[chosen])]
         of = f" of body {number}" if number else ""
-        for title, values, column, unit in ((f"Shear force{of}", cuts, LATERAL, units.force),
-                                            (f"Moment{of}", cuts, MOMENT, units.moment),
-                                            (f"Axial force{of}", cuts, AXIAL, units.force),
-                                            (f"Deflection{of}", motion, LATERAL, units.length)):
-            if np.ptp(values[:, chosen, column]) > 0:
-                yield {"kind": "profile", "title": title, "x": _unit(title.split(" of")[0].lower(), unit),
-                       "y": _unit("z", units.length),
-                       "lines": [{"name": title, "x": [_number(row) for row in values[:, chosen, column]],
-                                  "y": _number(z[chosen])}]}
+        for name, values, columns, unit in (("Shear force", cuts, FORCE, units.force), ("Moment", cuts, MOMENT, units.moment),
+                                            ("Axial force", cuts, AXIAL, units.force),
+                                            ("Deflection", motion, FORCE, units.length)):
+            for where, here in _ways(values[:, chosen], columns, theta):
+                title = f"{name}{of}{where}"
+                yield {"kind": "profile", "title": title, "x": _unit(name.lower(), unit), "y": _unit("z", units.length),
+                       "lines": [{"name": title, "x": [_number(row) for row in here], "y": _number(z[chosen])}]}
+
+
+def _ways(values, columns, theta):
+    """Yield where in words, and values of resultants there: along theta, and across it what is not slight beside that."""
+    if columns == AXIAL:
+        found = [("", values[..., AXIAL])]
+    else:
+        found = [(f" at {_at(angle)}", along(values, columns, angle)) for angle in (theta, (theta + 90) % 180)]
+    largest = max(abs(here).max() for _, here in found)
+    for where, here in found:
+        if np.ptp(here) > 0 and abs(here).max() > SLIGHT*largest:
+            yield where, here
 
 
 def _work(job):
