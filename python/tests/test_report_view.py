@@ -85,6 +85,15 @@ class Views(unittest.TestCase):
         for job in self.jobs["chimney"]:
             self.assertEqual(len(dict(self.check(job, view.data(job)[0]))), len(set(job.result.mesh.element_body)))
 
+    def test_modes_of_all_increments(self):
+        """A load that is taken back leaves its modes in the view of the increments before"""
+        law, details = "    1     100.0     200.0     100.0       0.0      26.0\n", r"LAWDETAILS .*\n.*\n"
+        text = re.sub(details, "", jobs.input_deck("monopile").replace(law, "1, 100.0, 200.0, 100.0, , , ELASTIC\n"))
+        job, = report.jobs_of(jobs.run(self.folder.name, "unloaded", text))
+        found, _ = view.data(job)
+        self.assertEqual(found["harmonic"], [0, 1])
+        dict(self.check(job, found))
+
     def test_curves_are_along_the_load(self):
         """A pile that is pushed towards 60 degrees: what it carries and how it moves there, as along 0 where that is pushed towards"""
         plain = self.jobs["monopile"][0]

@@ -21,7 +21,7 @@ from .markup import Markup, escaped, joined, tag
 LARGEST = 6_000_000
 # Sections of more elements are shown by their corner nodes
 MOST_WHOLE = 2500
-# Modes whose amplitudes are all smaller, of the largest, are left out
+# Modes whose amplitudes of all increments are smaller, of the largest of any, are left out
 LEAST_MODE = 1e-5
 # Joint quantities: what they are called, and the colours of states
 JOINT_VALUES = ("state", "pressure", "shear stress", "gap", "slip")
@@ -69,7 +69,7 @@ def data(job, largest=LARGEST):
     history = result.history
     kept = [int(k) for k in history.increments_of("displacement")]
     stressed = {int(k) for k in history.increments_of("stress")}
-    size = np.sqrt((result.displacement_amplitude**2).sum(-1)).max(-1)
+    size = np.max([np.linalg.norm(result.at(k).displacement_amplitude, axis=-1).max(-1) for k in kept], axis=0)
     modes = np.flatnonzero(size >= LEAST_MODE*size.max(initial=0))
     points = len(section.points)
     shown, with_stress, notes = _within(kept, stressed, points*len(modes), largest)
