@@ -21,7 +21,7 @@ import jobs
 import axijoint
 from axijoint import report
 from axijoint.report import __main__ as command
-from axijoint.report import budget, markup
+from axijoint.report import budget, extremes, markup
 import yielding as yielding_decks
 
 try:
@@ -40,6 +40,28 @@ NASTY = '<script>alert("x")</script> &amp; "Größe" </title> 45° (MN, m, MPa)'
 SORTS = ["all_fixed", "cases", "cuts", "gravity", "in_situ", "joint_cone_6", "joint_cylinders_elastic", "moved_face",
          "not_converged", "orthotropic_bending_8", "orthotropic_tension_4", "ring_loads", "sections", "springs",
          "supported_faces", "tension_mixed", "thermal_gradient", "torque", "unload_to_zero", "zero_load"]
+
+
+WAVES = """TITLE
+A ring under sin 36 theta
+CONTROL
+36
+MATERIALS
+1, 1000.0, 0.3
+BLOCKS
+1, 1, 8, 4, 2
+1.0, 0.0, 2.0, 0.5
+FACES
+1, 1, 2.0, 0.0, 2.0, 0.5
+2, 1, 1.0, 0.0, 1.0, 0.5
+FIXEDFACES
+2, 111
+HARMONICS
+36
+PRESSURES
+1, 36, 10.0, , A
+END
+"""
 
 
 class Page(html.parser.HTMLParser):
@@ -122,6 +144,26 @@ class Reports(unittest.TestCase):
             self.assertIn(message, page.texts["li"])
         self.assertIn("Converged in 17 iterations", page.texts["div"])
         self.assertEqual(page.texts["pre"].strip(), result.deck.strip())
+
+    def test_largest_values_are_those_round_the_circle(self):
+        """Of a high harmonic, whose peaks lie between multiples of 5 degrees, and of many"""
+        for name, text in (("waves", WAVES), ("monopile", jobs.turned_monopile(37))):
+            result = axijoint.open(f"{jobs.run(self.folder, name, text)}.h5")
+            found, fine = extremes.extremes(result), np.arange(0, 360, 0.5)
+            self.assertAlmostEqual(found["length"][1].value/result.history["largest_displacement"][-1], 1, 3 if name == "monopile" else 12)
+            moved = np.array([result.nodal_displacement(theta) for theta in fine])
+            stress = np.array([result.nodal_stress_values(theta) for theta in fine])
+            for names, values in ((axijoint.DISPLACEMENTS, moved), (axijoint.STRESSES, stress)):
+                for k, quantity in enumerate(names):
+                    low, high = (peak.value for peak in found[quantity])
+                    size, least, largest = abs(values[..., k]).max(), values[..., k].min(), values[..., k].max()
+                    self.assertTrue(least - 1e-3*size <= low <= least + 1e-12*size, f"{name} {quantity}: {low}, {least}")
+                    self.assertTrue(largest - 1e-12*size <= high <= largest + 1e-3*size, f"{name} {quantity}: {high}, {largest}")
+            for quantity in axijoint.DISPLACEMENTS:  # at their places
+                for peak in found[quantity]:
+                    node = result.mesh.node_label.tolist().index(int(peak.where.split()[1]))
+                    there = result.nodal_displacement(peak.theta)[node, axijoint.DISPLACEMENTS.index(quantity)]
+                    self.assertAlmostEqual(there, peak.value, delta=1e-12*abs(moved).max())
 
     def test_a_mechanism_is_said_first_and_a_title_cannot_break_the_page(self):
         self.mechanism("disc", NASTY)

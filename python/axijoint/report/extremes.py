@@ -3,14 +3,18 @@ from functools import lru_cache
 
 import numpy as np
 
-from ..circle import SYMMETRIC
+from ..circle import SYMMETRIC, totals
 from ..components import DISPLACEMENTS, STRESSES
 from ..joint_points import JointPoints
 
-# Step of the angles at which nodes are looked at [degree], as in what the program says at the end of a run
-STEP = 5.0
-# Where joints do not yield, between these: steps to where it is looked for something larger, and the least of them [degree]
+# Angles at which nodes are looked at first: the fewest, and for each wave of the highest harmonic
+LEAST_ANGLES, ANGLES_OF_A_WAVE = 72, 16
+# A sum of harmonics grows between these by at most (M step)^2/8 of its largest size, the square of a length by four times as much
+GROWTH = (2*np.pi/ANGLES_OF_A_WAVE)**2/8*4
+# Between angles, where joints do not yield, and at nodes: steps to where it is looked for something larger, and the least of them [degree]
 AROUND, LEAST_STEP = np.array([0, 0.25, -0.25, 0.5, -0.5, 0.75, -0.75, 1, -1]), 1e-4
+# A share by which values at two angles differ by rounding
+ROUNDING = 1e-12
 # What is looked for in joints, of a JointField
 JOINT_VALUES = {"pressure": lambda field: -field.sigma, "tension": lambda field: field.sigma,
                 "shear stress": lambda field: field.tau, "gap": lambda field: field.gap, "slip": lambda field: field.slip}
@@ -28,38 +32,60 @@ class Peak:
         return [self.value, self.r, self.z, self.theta, self.where]
 
 
-def angles(result):
-    """Angles at which nodes are looked at; half a circle if all is symmetric."""
-    end = 180 if (result.family == SYMMETRIC).all() else 360 - STEP
-    return np.arange(0.0, end + STEP/2, STEP)
-
-
 @lru_cache(maxsize=4)
 def extremes(result):
     """Smallest and largest of each component, and of the length of the displacement: name -> two Peaks.
 
-    Displacements are those of the nodes, stresses those smoothed to the nodes.
+    Displacements are those of the nodes, stresses those smoothed to the nodes, anywhere round the circle.
     """
-    found = {}
-    labels = result.mesh.node_label
-    owner = result.read("stress/nodal_node") - 1
-    for theta in angles(result):
-        moved, stress = result.nodal_displacement(theta), result.nodal_stress_values(theta)
-        for names, values, nodes in ((("length",), np.linalg.norm(moved, axis=1)[:, None], None),
-                                     (DISPLACEMENTS, moved, None), (STRESSES, stress, owner)):
-            _keep(found, names, np.where(np.isfinite(values), values, 0.0), nodes, theta)
-    return {name: [Peak(value, result.mesh.coordinates[node], theta, f"node {labels[node]}")
-                   for value, node, theta in pair] for name, pair in found.items()}
+    mesh, found = result.mesh, {}
+    moved, stress = result.displacement_amplitude, result.nodal_amplitude
+    every, owner = np.arange(len(mesh.node_label)), result.read("stress/nodal_node") - 1
+    for names, amplitude, of, nodes in ((("length",), moved, _length, every), (DISPLACEMENTS, moved, np.asarray, every),
+                                        (STRESSES, stress, np.asarray, owner)):
+        ends = [Peak(value, mesh.coordinates[nodes[point]], theta, f"node {mesh.node_label[nodes[point]]}")
+                for value, point, theta in _largest(result, np.where(np.isfinite(amplitude), amplitude, 0.0), of)]
+        found |= {name: [ends[k], ends[len(names) + k]] for k, name in enumerate(names)}
+    return found
 
 
-def _keep(found, names, values, nodes, theta):
-    """Replace what is surpassed at an angle."""
-    low, high = values.argmin(axis=0), values.argmax(axis=0)
-    for k, name in enumerate(names):
-        here = [(values[row, k], row if nodes is None else nodes[row], theta) for row in (low[k], high[k])]
-        before = found.setdefault(name, here)
-        before[0] = min(before[0], here[0], key=lambda one: one[0])
-        before[1] = max(before[1], here[1], key=lambda one: one[0])
+def _length(moved):
+    return np.linalg.norm(moved, axis=-1, keepdims=True)
+
+
+def _largest(result, amplitude, of):
+    """Yield the value, the point and the angle of the least of each component round the circle, then of the largest.
+
+    amplitude: (modes, points, components); of: makes of their sums (..., components) what is looked for
+    """
+    def at(theta, points=slice(None)):
+        values = of(totals(amplitude[:, points], result.harmonic, result.family, theta))
+        return np.concatenate([-values, values], -1)
+    highest = int(result.harmonic.max(initial=0))
+    count = max(LEAST_ANGLES, ANGLES_OF_A_WAVE*highest) if highest else 1
+    angles = np.arange(count//2 + 1 if (result.family == SYMMETRIC).all() else count)*360/count
+    values, place = _first(map(at, angles))
+    size = values.max(axis=0).reshape(2, -1).max(axis=0)  # of both signs
+    for k, largest in enumerate(np.tile(size, 2)):
+        first = int(values[:, k].argmax())
+        peak = values[first, k], first, angles[place[first, k]]
+        if highest and largest > 0:
+            near = np.flatnonzero(values[:, k] >= peak[0] - GROWTH*largest)
+            climbed, theta = _climbed(lambda tried, near=near, k=k: at(tried, near)[..., k], angles[place[near, k]], 360/count)
+            best = climbed.argmax()
+            if climbed[best] - peak[0] > ROUNDING*largest:
+                peak = climbed[best], near[best], theta[best]
+        yield peak[0] if k >= len(size) else -peak[0], *peak[1:]
+
+
+def _first(fields):
+    """The largest of fields at each point, and the first that has it, but for rounding."""
+    for k, values in enumerate(fields):
+        if k == 0:
+            largest, place = values.copy(), np.zeros(values.shape, int)
+        better = values > largest + ROUNDING*abs(largest)
+        largest[better], place[better] = values[better], k
+    return largest, place
 
 
 def joint_peaks(result, joints=None):
@@ -86,15 +112,19 @@ def _largest_of_points(result):
     for name, of in JOINT_VALUES.items():
         values = np.where(np.isfinite(of(field)), of(field), -np.inf)
         largest, theta = values.max(axis=0), field.theta[values.argmax(axis=0)]
-        found[name] = (largest, theta) if points.yields else _climbed(points, of, theta, field.theta[1] - field.theta[0])
+        found[name] = (largest, theta) if points.yields else _climbed(
+            lambda tried, of=of: of(points.at(tried)), theta, field.theta[1] - field.theta[0])
     return found
 
 
-def _climbed(points, of, theta, step):
-    """The largest values of joint points, and where, between the angles beside some [degree]."""
+def _climbed(at, theta, step):
+    """The largest values of points, and where, between the angles beside some [degree].
+
+    at: gives the values at angles (tries, points)
+    """
     while step > LEAST_STEP:
         tried = theta + step*AROUND[:, None]
-        values = of(points.at(tried))
+        values = at(tried)
         theta = np.take_along_axis(tried, values.argmax(axis=0)[None], 0)[0]
         step /= 4
     return values.max(axis=0), theta % 360

@@ -4,7 +4,7 @@ import numpy as np
 from ..circle import SYMMETRIC
 from ..components import DISPLACEMENTS, STRESSES
 from ..result import STATES
-from .extremes import STEP, extremes, joint_peaks
+from .extremes import extremes, joint_peaks
 from .markup import Markup, escaped, number, table
 
 SYMBOLS = {name: Markup(text) for name, text in {
@@ -206,7 +206,7 @@ def largest(job):
                 continue
             rows.append([with_unit(SYMBOLS[name], unit), word, *peak.cells()])
     head = ["quantity", "end", "value", "r", "z", "θ [°]", "where"]
-    yield table("Nodes", head, rows, f"Stresses are smoothed to the nodes; angles looked at are {STEP:g}° apart. "
+    yield table("Nodes", head, rows, "Stresses are smoothed to the nodes; values are the largest round the circle. "
                 "What is zero is left out.",
                 named_rows=True)
     joints = job.result.joints()
