@@ -10,6 +10,7 @@ from .table import Table
 JUMPS = "joint_amplitude"
 # Datasets of the end of the run: that of /history with the same by increment, and the numbers of these increments
 KEPT = {"displacement": ("displacement", "displacement_increment"),
+        "reaction": ("reaction", "displacement_increment"),
         "joints/jump": (JUMPS, "joint_increment"),
         "joints/stress": ("joint_stress", "joint_increment"),
         "joints/state": ("joint_state", "joint_increment"),
@@ -19,10 +20,13 @@ KEPT = {"displacement": ("displacement", "displacement_increment"),
         "supports/reacted": ("supports", "increment"),
         "resultants/applied": ("applied", "increment"), "resultants/reacted": ("reacted", "increment")}
 SECTION = re.compile(r"sections/\d+/(displacement|stress)")
-# What there is of the end of the run alone
-OF_THE_END = re.compile(r"(reaction|error|errors)(/|$)")
-# Cards of KEEP that keep more
-CARDS = {"displacement": "DISPLACE", "joints": "JOINTS", "stress": "STRESSES"}
+# What there is of the end of the run alone, and groups with such attributes
+OF_THE_END = re.compile(r"(error|errors)(/|$)|yield/(plastic_strain|active|equivalent|margin|stress|dissipation|failing_displacement|"
+                        r"error_load|error_displacement)$")
+ATTRIBUTES_OF_THE_END = ("error", "errors", "resultants", "convergence", "yield")
+# What is kept by the root of a name, in words, and cards of KEEP that keep more
+WORDS = {"displacement": "displacements", "reaction": "reactions", "stress": "stresses"}
+CARDS = {"displacement": "DISPLACE", "reaction": "DISPLACE", "joints": "JOINTS", "stress": "STRESSES"}
 COLUMNS = ("increment", "load_factor", "equilibrium", "iterations", "residual", "n_slip", "n_open",
            "largest_displacement", "largest_pressure", "largest_shear", "work", "energy", "dissipated")
 
@@ -147,7 +151,6 @@ def place_of(file, name, increment):
     if increment in numbers:
         return f"history/{kept}", numbers.index(increment)
     root = name.split("/")[0]
-    what = {"displacement": "displacements", "stress": "stresses", "joints": "joints"}.get(root, root)
     more = f"; a card of KEEP keeps more: `{CARDS[root]} ALL`" if root in CARDS else ""
-    raise NotKeptError(f"{what} of increment {increment} are not kept, only those of "
+    raise NotKeptError(f"{WORDS.get(root, root)} of increment {increment} are not kept, only those of "
                        f"{', '.join(map(str, numbers))}{more}")

@@ -9,7 +9,7 @@ import numpy as np
 
 from . import circle, convert, elements, joint_points
 from .components import DISPLACEMENTS, STRESSES
-from .history import History, JUMPS, NotKeptError, place_of
+from .history import ATTRIBUTES_OF_THE_END, History, JUMPS, NotKeptError, place_of
 from .interface import read_interfaces
 from .mesh import Mesh
 from .section import Section, line_rows
@@ -77,8 +77,8 @@ class Result:
     def at(self, increment):
         """This result as it was at the end of an increment: a Result.
 
-        Displacements, joints, stresses, sections, cuts and resultants are those of that increment. What the
-        file does not keep of it raises a NotKeptError when it is asked for.
+        Displacements, reactions, joints, stresses, sections, cuts and resultants are those of that increment, the
+        convergence path ends with it. What the file does not keep of it raises a NotKeptError when it is asked for.
         """
         known = set(self.history.increment.tolist()) | {
             int(k) for what in ("displacement", "joints", "stress") for k in self.history.increments_of(what)}
@@ -119,7 +119,7 @@ class Result:
 
     def attributes_of(self, name):
         """Attributes of a group, by name."""
-        if name in ("error", "errors", "resultants") and self.increment != self.history.increment[-1]:
+        if name in ATTRIBUTES_OF_THE_END and self.increment != self.history.increment[-1]:
             raise NotKeptError(f"attributes of /{name} are of the last increment alone")
         with h5py.File(self.path, "r") as file:
             return {key: text_of(value) for key, value in file[name].attrs.items()}
@@ -406,9 +406,10 @@ class Result:
             "state": STATES[field.state.ravel()]})
 
     def convergence(self):
-        """Table of the convergence path; no rows for a linear job."""
+        """Table of the convergence path up to this increment; no rows for a linear job."""
         names = ("increment", "iteration", "load_factor", "ratio", "n_slip", "n_open")
-        return Table((name, self.read(f"convergence/{name}")) for name in names)
+        path = Table((name, self.read(f"convergence/{name}")) for name in names)
+        return path if self._wanted is None else path.where(path["increment"] <= self._wanted)
 
     def spectrum(self):
         """Table of the modes: harmonic, family, largest amplitude of displacement and of stress.

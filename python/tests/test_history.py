@@ -40,8 +40,11 @@ class Increments(unittest.TestCase):
         for column in ("sigma", "tau", "gap", "slip"):
             self.close(view.joints()[column], stopped.joints()[column], 1e-9)
         self.assertTrue((view.joints()["state"] == stopped.joints()["state"]).all())
-        for name in ("cuts/resultants", "resultants/applied"):
+        for name in ("cuts/resultants", "resultants/applied", "reaction"):
             self.close(view.read(name), stopped.read(name), 1e-9)
+        paths = [one.convergence() for one in (view, stopped)]  # the last increment of a run may iterate longer
+        self.assertEqual(*(sorted(set(path["increment"])) for path in paths))
+        self.assertEqual(*(path.where(path["increment"] < STOPPED)["n_slip"].tolist() for path in paths))
         self.close(view.section(1).displacement, stopped.section(1).displacement)
         self.close(view.section(1).stress, stopped.section(1).stress, 1e-9)
         self.assertGreater(abs(view.nodal_displacement() - self.result.nodal_displacement()).max(), 1e-3)
@@ -61,10 +64,11 @@ class Increments(unittest.TestCase):
                             self.result.stress(3.0, -5.0, body=1)[1])
         with self.assertRaisesRegex(axijoint.NotKeptError, "stresses of increment 3 .* of 2, 8.*STRESSES ALL"):
             self.result.at(3).stress(3.0, -5.0)
-        with self.assertRaisesRegex(axijoint.NotKeptError, "/reaction is of increment 8"):
-            self.result.at(3).read("reaction")
-        with self.assertRaises(axijoint.NotKeptError):
-            self.result.at(3).attributes_of("resultants")
+        with self.assertRaisesRegex(axijoint.NotKeptError, "/errors/displacement is of increment 8"):
+            self.result.at(3).read("errors/displacement")
+        for name in ("resultants", "convergence"):
+            with self.assertRaises(axijoint.NotKeptError):
+                self.result.at(3).attributes_of(name)
         with self.assertRaisesRegex(ValueError, "no increment 9"):
             self.result.at(9)
 
@@ -107,6 +111,23 @@ class Increments(unittest.TestCase):
         self.close(hollow.at(3).nodal_displacement(), self.result.at(3).nodal_displacement(), 0)
         with self.assertRaisesRegex(KeyError, "history/joint_stress"):
             hollow.at(3).joints()
+
+
+class Yielding(unittest.TestCase):
+    """A pile in clay, whose plastic strain is kept of the last increment"""
+
+    def test_what_is_of_the_end(self):
+        with tempfile.TemporaryDirectory() as folder:
+            result = axijoint.open(f"{jobs.run(folder, 'pile_clay', jobs.input_deck('pile_clay'))}.h5")
+            last, view = result.increment, result.at(3)
+            for name in ("equivalent", "plastic_strain", "active", "margin", "stress", "dissipation"):
+                with self.assertRaisesRegex(axijoint.NotKeptError, f"/yield/{name} is of increment {last}, the last, alone"):
+                    view.read(f"yield/{name}")
+                np.testing.assert_array_equal(result.at(last).read(f"yield/{name}"), result.read(f"yield/{name}"))
+            with self.assertRaises(axijoint.NotKeptError):
+                view.attributes_of("yield")
+            for name in ("planes", "strength", "stress_point", "load_factor"):
+                np.testing.assert_array_equal(view.read(f"yield/{name}"), result.read(f"yield/{name}"))
 
 
 class OneIncrement(unittest.TestCase):
