@@ -6,18 +6,20 @@ import pathlib
 import shutil
 import subprocess
 import tempfile
-import time
 import weakref
 from collections.abc import Mapping, Sequence
 
 from .deck import Deck
-from .result import Result, open_combinations
+from .result import Result, result_files
 
 # Exit codes with which results are written, though the job did not come to its end
 NO_RESULTS, NOT_CONVERGED, MECHANISM = {}, 3, 4
 MEANINGS = {2: "the deck has errors", NOT_CONVERGED: "not converged", MECHANISM: "singular or a mechanism",
             5: "input or output failed", 6: "not enough memory", 7: "another run writes these results",
             8: "a state that cannot be gone on from", 70: "internal error", 75: "stopped"}
+
+# What the program says where results of the same job are there and --resume leaves them
+LEFT = "its results are there already"
 
 
 class RunError(RuntimeError):
@@ -26,7 +28,7 @@ class RunError(RuntimeError):
     exit_code   of the program: 2 deck, 3 not converged, 4 singular or a mechanism, 5 input or output, 6 memory,
                 75 stopped by a signal
     messages    what the program said, with cards and carets
-    results     results that it wrote by combination: of a job that did not converge, and the last equilibrium
+    results     results of this run by combination, none that an earlier one has left: of a job that did not converge, and the last equilibrium
                 before a mechanism; mostly empty else
     """
 
@@ -80,7 +82,7 @@ def run(deck: Deck | str | os.PathLike[str], directory: str | os.PathLike[str] |
     found = run_combinations(deck, directory, name=name, threads=threads, options=options, program=program)
     if len(found) > 1:
         raise ValueError(f"the job has the combinations {', '.join(map(str, found))}; use run_combinations")
-    return next(iter(found.values()))
+    return found.popitem()[1]
 
 
 def run_combinations(deck: Deck | str | os.PathLike[str], directory: str | os.PathLike[str] | None = None, *,
@@ -93,23 +95,43 @@ def run_combinations(deck: Deck | str | os.PathLike[str], directory: str | os.Pa
     path = deck.write(folder/f"{name}.dat") if isinstance(deck, Deck) else pathlib.Path(deck)
     if threads is not None:
         options = [*options, "--threads", str(threads)]
-    begin = time.time_ns()
+    before = _stamps(folder/path.stem)
     done = subprocess.run([program or find_program(), "run", "-o", folder, *options, "--", path],
                           capture_output=True, encoding="utf-8", errors="replace", check=False)
-    results = _written_since(begin, folder/path.stem)
+    results = _results(folder/path.stem, before, path, "--resume" in options, LEFT in done.stderr)
     for result in results.values():
         result.folder = kept  # which is removed with the last of them
     if done.returncode != 0:
         raise RunError(done.returncode, done.stderr.strip("\n") or done.stdout.strip("\n"), results)
+    if not results:
+        raise FileNotFoundError(f"the run has no results {folder/path.stem}.h5; the program said\n{done.stderr}{done.stdout}")
     return results
 
 
-def _written_since(begin: int, path: pathlib.Path) -> dict[int, Result]:
-    """Results of this run among the files; an earlier one may have left others."""
-    try:
-        found = open_combinations(path)
-    except FileNotFoundError:
+def _stamps(path: pathlib.Path) -> dict[pathlib.Path, str]:
+    """Stamps of the runs that results of a name are of, by their files."""
+    found = {}
+    for file in result_files(path):
+        try:
+            found[file] = str(Result(file).attributes.get("run"))
+        except (OSError, ValueError):  # no results, or not whole
+            continue
+    return found
+
+
+def _results(path: pathlib.Path, before: Mapping[pathlib.Path, str], deck: pathlib.Path, resumed: bool,
+             left: bool) -> dict[int, Result]:
+    """Results of a run by combination.
+
+    path: of the results, without ending; before: stamps before the run; deck: the path of its deck
+    resumed, left: whether it went on from another, which wrote some of them, or left all of them as they were
+    """
+    stamps = _stamps(path)
+    new = {file for file, stamp in stamps.items() if before.get(file) != stamp}
+    found = [Result(file) for file in (stamps if left or resumed and new else new)]
+    if not found:
         return {}
-    second = 10**9  # times of files may be coarse
-    return {number: result for number, result in found.items()
-            if result.path.stat().st_mtime_ns >= begin - second}
+    text = deck.read_text(encoding="utf-8", errors="replace").splitlines() if left else []
+    # Of what was left, files may be of another deck, which was run since
+    own = max(found, key=lambda one: (one.path in new, one.deck.splitlines() == text, one.path.stat().st_mtime_ns)).deck
+    return {one.combination: one for one in sorted(found, key=lambda one: one.combination) if one.deck == own}

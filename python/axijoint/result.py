@@ -471,15 +471,21 @@ def open_combinations(path):
     `chimney.1.h5`, `chimney.2.h5`, ..., or `chimney.h5` alone (number 0).
     """
     path = pathlib.Path(path)
-    name = path.name[:-3] if path.name.endswith(".h5") else path.name
-    pattern = re.compile(re.escape(name) + r"(\.\d+)?\.h5")
-    found = [Result(file) for file in path.parent.iterdir() if pattern.fullmatch(file.name)]
+    name = path.name.removesuffix(".h5")
+    found = [Result(file) for file in result_files(path)]
     if not found:
         raise FileNotFoundError(f"no {name}.h5 or {name}.N.h5 in {path.parent}")
     own = [one for one in found if pathlib.PurePath(one.attributes.get("deck", "")).stem == name] or found  # else of another deck, or renamed
     latest = max(own, key=lambda one: one.path.stat().st_mtime_ns)
     found = [one for one in found if one.deck == latest.deck]
     return {result.combination: result for result in sorted(found, key=lambda one: one.combination)}
+
+
+def result_files(path):
+    """Files that may be results of a name, NAME.h5, NAME.1.h5, ...: a list. path: with the directory, with or without .h5"""
+    path = pathlib.Path(path)
+    pattern = re.compile(re.escape(path.name.removesuffix(".h5")) + r"(\.\d+)?\.h5")
+    return [file for file in path.parent.iterdir() if pattern.fullmatch(file.name)]
 
 
 def text_of(value):

@@ -82,6 +82,8 @@ def study(deck: Deck | str | os.PathLike[str], table: Columns | str | os.PathLik
     deck_path = deck.write(place/f"{name}.dat") if isinstance(deck, Deck) else deck
     if threads is None and executor is not None:
         threads = 1
+    # what it did at the end tells that it came there; nobody sees it
+    options = [one for one in options if one != "--quiet"]
     command = [os.path.abspath(program or find_program()), "study", str(path), os.path.abspath(deck_path), "-o",
                str(place), *options, *(["--estimates"] if estimates else []),
                *(["--threads", str(threads)] if threads else [])]

@@ -22,6 +22,26 @@ if TYPE_CHECKING:
 ENDING = ".study.h5"
 
 
+class Rows(Table):
+    """Rows of a study. Columns are found whatever the case of their names, as the program finds those of a table."""
+
+    def __missing__(self, name: object) -> np.ndarray:
+        own = self._own(name)
+        if own is None:
+            raise KeyError(f"there is no column {name!r}; there are {', '.join(self)}")
+        return self[own]
+
+    def __contains__(self, name: object) -> bool:
+        return self._own(name) is not None
+
+    def where(self, mask: Any) -> Rows:
+        """The rows for which a mask holds, or of a list of numbers of rows."""
+        return Rows(super().where(mask))
+
+    def _own(self, name: object) -> str | None:
+        return next((own for own in self if own.upper() == str(name).upper()), None)
+
+
 class Study:
     """The results of a study, NAME.study.h5 and NAME.study.csv beside it.
 
@@ -32,7 +52,7 @@ class Study:
     quantities   names of the quantities
     rows         Table with a row each: row, what varies, exit_code, seconds, the quantities at the end of the
                  row's last increment (nan where there is no result), message (also of rows that end well: warnings
-                 and remarks)
+                 and remarks); capital and small letters of names are alike
     exit_codes   of the rows: 0 solved, 3 not converged, 4 mechanism, 2 wrong values, ...; (rows)
     increments   numbers of increments; (rows)
     solved       whether the exit code is 0; (rows)
@@ -59,7 +79,7 @@ class Study:
             return file[name][()]
 
     @cached_property
-    def rows(self) -> Table:
+    def rows(self) -> Rows:
         """The rows as a Table."""
         with open(self.path.with_suffix(".csv"), encoding="utf-8", newline="") as file:
             cells = list(csv.DictReader(file))
@@ -70,7 +90,7 @@ class Study:
             found[name] = numbers[:, k] if all(map(_is_number, texts)) else np.array(texts, object)
         found |= {"exit_code": self.exit_codes, "seconds": self.read("seconds")}
         found |= {name: self._last[:, k] for k, name in enumerate(self.quantities)}
-        return Table(found | {"message": np.array([row["message"] for row in cells], object)})
+        return Rows(found | {"message": np.array([row["message"] for row in cells], object)})
 
     @cached_property
     def _values(self) -> np.ndarray:
@@ -129,9 +149,10 @@ class Study:
         return xarray.Dataset(found | {"increments": ("row", self.increments)}, coords, {"study": str(self.path)})
 
     def _place(self, name: str) -> int:
-        if name not in self.quantities:
+        places = {own.upper(): k for k, own in enumerate(self.quantities)}
+        if name.upper() not in places:
             raise ValueError(f"there is no quantity {name!r}; there are {', '.join(self.quantities)}")
-        return self.quantities.index(name)
+        return places[name.upper()]
 
 
 def open_study(path: str | os.PathLike[str]) -> Study:

@@ -188,7 +188,7 @@ class Cards(unittest.TestCase):
 class Runs(unittest.TestCase):
     """Runs from Python"""
 
-    def peg(self, lateral):
+    def peg(self, lateral, held=True):
         deck = Deck("A peg in a block (MN, m, MPa)")
         deck.comment("A comment\nof two lines")
         deck.control(4)
@@ -201,7 +201,8 @@ class Runs(unittest.TestCase):
         deck.faces(3, body=2, first=(0.5, 0), last=(0.5, 1))
         deck.faces(4, body=2, first=(0.5, 1), last=(2, 1))
         deck.interfaces(law=1, face_a=2, face_b=3)
-        deck.fixedfaces(4, "111")
+        if held:
+            deck.fixedfaces(4, "111")
         deck.resultants(1, "LATERAL", lateral)
         return deck
 
@@ -252,6 +253,37 @@ class Runs(unittest.TestCase):
             axijoint.run(deck)
         self.assertEqual(caught.exception.exit_code, 3)
         self.assertEqual(caught.exception.results[0].status, "not_converged")
+
+    def test_results_are_those_of_the_run(self):
+        """Results of an earlier run of the folder are not those of one that has none"""
+        wrong, free = self.peg(0.4), self.peg(0.8, held=False)
+        wrong.fixedfaces(7, "111")
+        with tempfile.TemporaryDirectory() as folder:
+            for deck, exit_code in ((wrong, 2), (free, 4)):
+                axijoint.run(self.peg(0.4), folder)
+                with self.assertRaises(axijoint.RunError) as caught:
+                    axijoint.run(deck, folder)
+                self.assertEqual((caught.exception.exit_code, caught.exception.results), (exit_code, {}))
+
+    def test_results_that_are_there(self):
+        """--resume leaves what is complete, also where another deck of the name was run since"""
+        chimney = (jobs.ROOT/"inputs/chimney.dat").read_text(encoding="utf-8")
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder)/"job.dat"
+            for text, numbers in ((chimney, [1, 2]), (chimney.replace("    1    1       1.0\n", ""), [0]), (chimney, [1, 2])):
+                path.write_text(text, encoding="utf-8")
+                found = axijoint.run_combinations(path, folder, options=["--resume"])
+                self.assertEqual((list(found), {one.deck for one in found.values()}), (numbers, {text}))
+            self.assertEqual(list(axijoint.run_combinations(path, folder, options=["--resume"])), [1, 2])
+            made = axijoint.run(self.peg(0.4), folder, name="peg")
+            again = [axijoint.run(deck, folder, options=["--resume"]) for deck in [made.path.with_suffix(".dat")]]
+            self.assertEqual([one.attributes["run"] for one in again], [made.attributes["run"]])
+            deck = self.peg(0.4)
+            deck.increments(1.0, tolerance=1e-9, iterations=1)
+            for options in ([], ["--resume"]):
+                with self.assertRaises(axijoint.RunError) as caught:
+                    axijoint.run(deck, folder, name="short", options=options)
+                self.assertEqual(caught.exception.results[0].status, "not_converged")
 
     def test_combinations(self):
         path = jobs.ROOT/"inputs/chimney.dat"

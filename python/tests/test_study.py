@@ -81,6 +81,25 @@ class Studies(unittest.TestCase):
         with self.assertRaisesRegex(ValueError, "largest_displacement"):
             self.whole.values("displacement")
 
+    def test_names_in_any_case(self):
+        rows = self.whole.rows
+        for name in ("Laws 1 phi", "laws 1 PHI", "LAWS 1 PHI"):
+            np.testing.assert_array_equal(rows[name], self.whole.read("varied")[:, self.whole.columns.index("LAWS 1 PHI")])
+            np.testing.assert_array_equal(rows.where([2, 3])[name], rows[name][[2, 3]])
+            self.assertIn(name, rows)
+        self.assertNotIn("LAWS 1", rows)
+        np.testing.assert_array_equal(self.whole.values("Work"), self.whole.values("work"))
+        with self.assertRaisesRegex(KeyError, "no column 'LAWS 1 FI'; there are row, LAWS 1 PHI"):
+            rows["LAWS 1 FI"]
+
+    def test_quiet(self):
+        """What a study prints is not what tells that it came to its end"""
+        self.same(axijoint.study(DECK, TABLE, folder=self.folder/"quiet", threads=1, options=["--quiet"]))
+        with concurrent.futures.ThreadPoolExecutor(2) as executor:
+            self.same(axijoint.study(DECK, TABLE, executor, folder=self.folder/"quiet parts", options=["--quiet"]))
+        with self.assertRaisesRegex(axijoint.RunError, "no field of LAWS"):
+            axijoint.study(DECK, {"LAWS 1 FI": [1, 2]}, options=["--quiet"])
+
     def test_a_row_is_a_run(self):
         text = DECK.read_text()
         # Of row 9: phi = 20, E = 1.8E4, value = 0.2
