@@ -1,6 +1,8 @@
 """Tables: named columns of equal length."""
 import csv
 
+import numpy as np
+
 
 class Table(dict):
     """A dictionary of columns (NumPy arrays of one length), in order.
@@ -40,3 +42,8 @@ class Table(dict):
 
     def __repr__(self):
         return f"Table of {self.rows} rows: {', '.join(self)}"
+
+
+def joined(tables):
+    """Tables of the same columns below one another."""
+    return Table((name, np.concatenate([one[name] for one in tables])) for name in tables[0])

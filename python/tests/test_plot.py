@@ -348,11 +348,43 @@ class Monopile(unittest.TestCase):
                             (("--units", "MN"), "--units wants"), (("--enlargement", "0"), "a positive number"),
                             (("--style", "nothing.mplstyle"), "no file nothing.mplstyle"),
                             (("pile", "--increments", "9"), "no increment 9"),
+                            ((self.path, "mesh"), "monopile.h5 would have figures of the same names"),
                             (("pile", "--body", "2"), "no CUTS of body 2"),
                             (("sections", "--body", "1"), "no section runs through")):
             code, _, found = self.run_command(*words, "-o", self.folder.name)
             self.assertIn(said, found)
             self.assertEqual(code, 0 if said.startswith(("no CUTS", "no section")) else 2)
+
+    def test_nothing_is_written_after_a_fault(self):
+        again = pathlib.Path(self.folder.name)/"again"/"monopile.h5"
+        again.parent.mkdir()
+        again.write_bytes(pathlib.Path(self.path).read_bytes())
+        out = pathlib.Path(self.folder.name)/"nothing"
+        for words, said in (((str(again), "mesh"), f"{self.path} and {again} would have figures of the same names"),
+                            (("energy", "pressure", "--increments", "1,9"), "no increment 9")):
+            code, wrote, found = self.run_command(*words, "-o", str(out))
+            self.assertIn(said, found)
+            self.assertEqual((code, wrote, list(out.glob("*"))), (2, "", []))
+        with self.assertRaises(SystemExit), contextlib.redirect_stderr(io.StringIO()) as found:
+            command.main([self.path, "energy", "pressure", "--increments", "3-1", "-o", str(out)])
+        self.assertRegex(found.getvalue(), "--increments: the range 3-1 descends; write 1-3\n$")
+        self.assertEqual(list(out.glob("*")), [])
+
+    def test_figures_of_each_angle(self):
+        """Of kinds with one direction, angles have figures of their own, and rows of their own in tables"""
+        out = pathlib.Path(self.folder.name)/"angles"
+        code, _, said = self.run_command("pile", "points", "deformed", "pisa", "--angles", "0,60", "--format", "svg", "-o", str(out))
+        self.assertEqual((code, said), (0, ""))
+        kinds = ("pile", "points", "deformed", "pisa")
+        self.assertEqual({path.name for path in out.glob("*.svg")}, {f"monopile_{kind}_theta_{at}.svg" for kind in kinds for at in (0, 60)})
+        both, one = (dict(plot.tables(self.result, kinds, plot.Options(angles=angles))) for angles in ((0, 60), (60,)))
+        self.assertEqual(both.keys(), {"pile", "points", "pisa_shaft", "pisa_base"})
+        for name, table in both.items():
+            np.testing.assert_equal(dict(table.where(table["theta"] == 60)), dict(one[name]))
+            self.assertEqual(table.rows, 2*one[name].rows)
+        self.assertEqual(len(self.figures("sections", angles=(0, 60))), 1)
+        self.assertEqual(self.figures("deformed", angles=(0, 60), increments=(6,)).keys(),
+                         {"deformed_increment_6_theta_0", "deformed_increment_6_theta_60"})
 
     def test_labels_beside_curves_keep_apart(self):
         figure, axes = plot.plt.subplots()

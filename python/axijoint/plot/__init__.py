@@ -7,6 +7,7 @@
 `python -m axijoint.plot RESULT.h5 [-o DIR] [KIND...]` writes them as PNG and SVG, and tables of some as CSV.
 """
 import pathlib
+from dataclasses import replace
 
 try:
     import matplotlib  # noqa: F401
@@ -15,6 +16,7 @@ except ImportError as error:
 
 from ..envelopes import Envelope
 from ..studies import Study
+from ..table import joined
 from . import envelope, states
 from .kinds import KINDS, NothingToDraw
 from .options import Options
@@ -43,9 +45,9 @@ def figures(result, kinds=None, options=Options(), missing=None):
     A figure is closed when the next one is asked for. missing: called with the kind and the reason for kinds that
     there is nothing to draw of, such as the convergence path of a linear job.
     """
-    for kind, view, suffix in _drawn(result, kinds, options):
+    for kind, view, chosen, suffix in _drawn(result, kinds, options):
         try:
-            for name, figure in kinds_of(result)[kind].draw(view, options):
+            for name, figure in kinds_of(result)[kind].draw(view, chosen):
                 yield name + suffix, figure
                 plt.close(figure)
         except NothingToDraw as reason:
@@ -54,27 +56,36 @@ def figures(result, kinds=None, options=Options(), missing=None):
 
 
 def tables(result, kinds=None, options=Options()):
-    """Yield name and Table of what is drawn, of the kinds that have tables."""
+    """Yield name and Table of what is drawn, of the kinds that have tables; rows of several angles below one another."""
     known = kinds_of(result)
     for kind in _known(kinds, known) or known:
         if known[kind].tables and (kinds or known[kind].tells(result)):
             try:
-                yield from known[kind].tables(result, options)
+                found = [dict(known[kind].tables(result, chosen)) for chosen, _ in _by_angle(known[kind], options)]
             except NothingToDraw:
-                pass
+                continue
+            yield from ((name, joined([one[name] for one in found])) for name in found[0])
 
 
 def _drawn(result, kinds, options):
-    """Kinds, the view of the increment that each is drawn of, and what it adds to the name."""
+    """Kinds, the view of the increment that each is drawn of, its options, and what these add to the name."""
     known = kinds_of(result)
     for kind in _known(kinds, known) or known:
         if not kinds and not known[kind].tells(result):
             continue
+        views = [(result, "")]
         if known[kind].each_increment and options.increments is not None:
-            for number in options.increments:
-                yield kind, result.at(number), f"_increment_{number}"
-        else:
-            yield kind, result, ""
+            views = [(result.at(number), f"_increment_{number}") for number in options.increments]
+        for view, of in views:
+            for chosen, at in _by_angle(known[kind], options):
+                yield kind, view, chosen, of + at
+
+
+def _by_angle(kind, options):
+    """Options, and what they add to the name, for one angle after another where a kind has figures of one alone."""
+    if not kind.each_angle or len(options.angles or ()) < 2:
+        return [(options, "")]
+    return [(replace(options, angles=(angle,)), f"_theta_{angle:g}") for angle in options.angles]
 
 
 def _known(kinds, known):

@@ -24,6 +24,8 @@ def numbers(of):
             for part in text.split(","):
                 first, dash, last = part.strip().partition("-")
                 if of is int and dash and first:
+                    if int(last) < int(first):
+                        raise argparse.ArgumentTypeError(f"the range {part.strip()} descends; write {last}-{first}")
                     found += range(int(first), int(last) + 1)
                 else:
                     found.append(of(part))
@@ -85,6 +87,11 @@ def fault_of(given, kinds, paths):
         what = f"{missing[0]} is neither a file nor a kind of figure" if missing else "no result file"
         return f"{what}; kinds: {', '.join(KINDS)}; of studies: {', '.join(STUDY_KINDS)}; " \
             f"of envelopes: {', '.join(ENVELOPE_KINDS)}"
+    first = {stem_of(path): path for path in reversed(paths)}
+    double = [path for path in paths if first[stem_of(path)] is not path]
+    if double:
+        return f"{first[stem_of(double[0])]} and {double[0]} would have figures of the same names; draw them one after the other " \
+            "with different -o"
     if len({sort_of(path) for path in paths}) > 1:
         return "results, studies and envelopes are drawn by commands of their own"
     _, known = SORTS[sort_of(paths[0])]
@@ -116,6 +123,11 @@ def sort_of(path):
     return next((ending for ending in SORTS if path.name.endswith(ending)), "")
 
 
+def stem_of(path):
+    """How names of figures of a file begin."""
+    return path.name.removesuffix(".h5")
+
+
 def options_of(given):
     """Options of the command line."""
     return Options(given.body, given.material, given.range, given.angles, given.increments, given.depths,
@@ -142,7 +154,7 @@ def main(arguments=None):
         try:
             opened, _ = SORTS[sort_of(path)]
             result = opened(path)
-            code = max(code, write(result, given.o/path.name.removesuffix(".h5"), kinds, given))
+            code = max(code, write(result, given.o/stem_of(path), kinds, given))
         except (OSError, ValueError) as error:
             print(f"plot: {path}: {error}", file=sys.stderr)
             return 2
@@ -152,6 +164,8 @@ def main(arguments=None):
 def write(result, stem, kinds, given):
     """Write the figures and tables of a result, and say what is written; 1 if something is not kept, else 0."""
     options = options_of(given)
+    for number in options.increments or ():
+        result.at(number)  # nothing is written if there is none
 
     def missing(kind, reason):
         if kinds:

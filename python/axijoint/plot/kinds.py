@@ -18,6 +18,7 @@ class Kind:
     draw            (result, options) -> yields name, Figure
     takes           names of the options that it heeds, beside those of all figures
     each_increment  each increment that is asked for has figures of its own
+    each_angle      each angle that is asked for, too
     tables          (result, options) -> yields name, Table
     tells           (result) -> whether it is drawn where no kinds are asked for
     """
@@ -25,6 +26,7 @@ class Kind:
     draw: Callable
     takes: Tuple[str, ...] = ()
     each_increment: bool = False
+    each_angle: bool = False
     tables: Optional[Callable] = None
     tells: Callable = lambda result: True
 
@@ -137,9 +139,9 @@ KINDS = {
     "mesh": Kind("materials, joints, supports, loads", lambda result, options: [("mesh", mesh.draw(result, options))]),
     "deformed": Kind("two opposite planes, displacements enlarged",
                      lambda result, options: [("deformed", fields.draw_deformed(result, options))],
-                     (*OF_SOLIDS, "enlargement"), each_increment=True),
+                     (*OF_SOLIDS, "enlargement"), each_increment=True, each_angle=True),
     "contours": Kind("displacement and stresses on two opposite planes", _contours, (*OF_SOLIDS, "range"),
-                     each_increment=True),
+                     each_increment=True, each_angle=True),
     "sections": Kind("displacements and stresses along lines", _sections, OF_SOLIDS, each_increment=True),
     "joints": Kind("state, stresses, gap and slip over depth and theta", _joints, ("increments",),
                    each_increment=True),
@@ -147,23 +149,23 @@ KINDS = {
     "spectrum": Kind("displacement and stress of each harmonic",
                      lambda result, options: [("spectrum", curves.draw_spectrum(result, options))], ("increments",),
                      each_increment=True),
-    "points": Kind("load against displacement of named points", _points, ("angles",), tells=_has_points,
+    "points": Kind("load against displacement of named points", _points, ("angles",), each_angle=True, tells=_has_points,
                    tables=_points_tables),
     "energy": Kind("work, energy, dissipation and residuals by increment",
                    lambda result, options: [("energy", series.draw_energy(result, options))], tells=_several,
                    tables=lambda result, options: [("increments", result.increments)]),
     "pile": Kind("deflection, rotation, shear, moment, axial force by depth, from CUTS",
-                 _soil("pile", pile.draw_profile), OF_PILES,
+                 _soil("pile", pile.draw_profile), OF_PILES, each_angle=True,
                  tells=lambda result: _several(result) and pile.has_cuts(result),
                  tables=_of_pile(lambda result, options: [("pile", pile.profile_table(result, options))])),
     "py": Kind("p-y curves by depth", _soil("py", lambda *one: pile.draw_curves(*one, "py")), (*OF_PILES, "depths"),
-               tables=_of_pile(_soil_tables), tells=_has_pile),
+               each_angle=True, tables=_of_pile(_soil_tables), tells=_has_pile),
     "tz": Kind("t-z curves by depth", _soil("tz", lambda *one: pile.draw_curves(*one, "tz")), (*OF_PILES, "depths"),
-               tables=_of_pile(_soil_tables), tells=_has_pile),
+               each_angle=True, tables=_of_pile(_soil_tables), tells=_has_pile),
     "pisa": Kind("the four soil reactions of the PISA method", _soil("pisa", pile.draw_pisa), (*OF_PILES, "depths"),
-                 tables=_of_pile(_soil_tables), tells=_has_pile),
+                 each_angle=True, tables=_of_pile(_soil_tables), tells=_has_pile),
     "pressure": Kind("pressure in joints round the circle", _pressure, ("increments", "depths", "range"),
                      tables=lambda result, options: [("pressure", polar.table(result, options))],
                      tells=_has_joints),
     "yielding": Kind("plastic strain and dissipation on two opposite planes, yield margin round a circle, what moves beyond the limit load",
-                     _yielding, ("body", "material", "angles", "range"), tells=yielding.has)}
+                     _yielding, ("body", "material", "angles", "range"), each_angle=True, tells=yielding.has)}

@@ -12,7 +12,8 @@ class Options:
 
     body, material  draw only this body, only this material (numbers of the deck)
     range           least and greatest value of the colours, or of the radius of polar plots
-    angles          theta [degree]: of planes, curves, or the direction of forces and displacements
+    angles          theta [degree]: of planes, curves, or the direction of forces and displacements; figures that have one
+                    of them are drawn for each
     increments      numbers of the increments
     depths          heights z of curves by depth
     enlargement     displacements are drawn so many times larger

@@ -3,7 +3,7 @@ import numpy as np
 
 from .. import circle
 from ..resultants import AXIAL, FORCE, MOMENT, along, load_of
-from ..table import Table
+from ..table import joined
 from . import style
 from .style import plt
 
@@ -50,7 +50,7 @@ def points_table(result, options):
                      "lateral_force": along(applied, FORCE, options.angle),
                      "moment": along(applied, MOMENT, options.angle),
                      "u": u, "v": v, "w": w, "lateral": lateral})
-    return Table((name, np.concatenate([one[name] for one in rows])) for name in rows[0])
+    return joined(rows)
 
 
 def _along(result, name, theta):
