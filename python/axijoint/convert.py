@@ -35,17 +35,17 @@ def to_xarray(result):
     """What is kept of all increments as an xarray.Dataset; see `Result.to_xarray`."""
     xarray = needed("xarray", "Result.to_xarray")
     history = result.history
-    coords = {"increment": history.increment, "node": result.mesh.node_label, "component": list(DISPLACEMENTS),
+    coords = {"increment": history.known, "node": result.mesh.node_label, "component": list(DISPLACEMENTS),
               "stress": list(STRESSES), "harmonic": ("mode", result.harmonic), "family": ("mode", result.family),
               "r": ("node", result.mesh.coordinates[:, 0]), "z": ("node", result.mesh.coordinates[:, 1]),
               "value_node": ("value", result.mesh.node_label[result.read("stress/nodal_node") - 1])}
-    found = {name: ("increment", history[name]) for name in result.increments.column_names[1:]}
-    for name in ("applied", "reacted"):
-        found[name] = (("increment", "resultant"), history[name])
-        coords["resultant"] = list(RESULTANTS)
+    coords["resultant"] = list(RESULTANTS)
+    series = {name: () for name in result.increments.column_names[1:]} | {"applied": ("resultant",), "reacted": ("resultant",)}
     if result.has("cuts/label"):
         coords |= {"cut": result.read("cuts/label"), "cut_z": ("cut", result.read("cuts/z"))}
-        found |= {name: (("increment", "cut", "resultant"), history[name]) for name in ("cuts", "cut_motion")}
+        series |= {"cuts": ("cut", "resultant"), "cut_motion": ("cut", "resultant")}
+    found = {name: xarray.DataArray(history[name], dims=("increment", *dims), coords={"increment": history.increment})
+             for name, dims in series.items()}
     for name, dims, read in _fields(result):
         found[name] = _by_increment(xarray, result, name, dims, read)
     if len(result.read("joints/joint")):

@@ -21,8 +21,8 @@ KEPT = {"displacement": ("displacement", "displacement_increment"),
         "resultants/applied": ("applied", "increment"), "resultants/reacted": ("reacted", "increment")}
 SECTION = re.compile(r"sections/\d+/(displacement|stress)")
 # What there is of the end of the run alone, and groups with such attributes
-OF_THE_END = re.compile(r"(error|errors)(/|$)|yield/(plastic_strain|active|equivalent|margin|stress|dissipation|failing_displacement|"
-                        r"error_load|error_displacement)$")
+OF_THE_END = re.compile(r"(error|errors)(/|$)|yield/(plastic_strain|active|equivalent|margin|stress|dissipation|"
+                        r"failing_displacement|error_load|error_displacement)$")
 ATTRIBUTES_OF_THE_END = ("error", "errors", "resultants", "convergence", "yield")
 # What is kept by the root of a name, in words, and cards of KEEP that keep more
 WORDS = {"displacement": "displacements", "reaction": "reactions", "stress": "stresses"}
@@ -71,6 +71,11 @@ class History:
     def increment(self):
         """Numbers of the increments that series are kept of."""
         return self["increment"]
+
+    @property
+    def known(self):
+        """Numbers of the increments that series or fields are kept of, ascending: those that `Result.at` takes."""
+        return np.unique(np.concatenate([self.increment, *map(self.increments_of, ("displacement", "joints", "stress"))]))
 
     def increments_of(self, what):
         """Numbers of the increments that `displacement`, `joints` or `stress` is kept of, the last included."""

@@ -28,8 +28,8 @@ class RunError(RuntimeError):
     exit_code   of the program: 2 deck, 3 not converged, 4 singular or a mechanism, 5 input or output, 6 memory,
                 75 stopped by a signal
     messages    what the program said, with cards and carets
-    results     results of this run by combination, none that an earlier one has left: of a job that did not converge, and the last equilibrium
-                before a mechanism; mostly empty else
+    results     results of this run by combination, none that an earlier one has left: of a job that did not converge,
+                and the last equilibrium before a mechanism; mostly empty else
     """
 
     def __init__(self, exit_code: int, messages: str, results: Mapping[int, Result] = NO_RESULTS) -> None:

@@ -80,10 +80,9 @@ class Result:
         Displacements, reactions, joints, stresses, sections, cuts and resultants are those of that increment, the
         convergence path ends with it. What the file does not keep of it raises a NotKeptError when it is asked for.
         """
-        known = set(self.history.increment.tolist()) | {
-            int(k) for what in ("displacement", "joints", "stress") for k in self.history.increments_of(what)}
+        known = self.history.known.tolist()
         if increment not in known:
-            raise ValueError(f"there is no increment {increment}; the file keeps {sorted(known)}")
+            raise ValueError(f"there is no increment {increment}; the file keeps {known}")
         self.mesh, self.harmonic, self.family  # read once for all views
         view = copy.copy(self)
         view.__dict__ = {name: value for name, value in self.__dict__.items()
@@ -252,20 +251,25 @@ class Result:
         """Numbers of the points that lie in the mesh, their elements and natural coordinates."""
         if outside not in ("error", "nan"):
             raise ValueError(f"outside is {outside!r}; it may be 'error' or 'nan'")
-        point, element, natural = self.mesh.locate(points)
+        places, place = np.unique(points, axis=0, return_inverse=True)  # each once, whatever angles there are of it
+        point, element, natural = self.mesh.locate(places)
         keep = self.chosen(body, material)[element]
         point, element, natural = point[keep], element[keep], natural[keep]
         order = np.lexsort((self.mesh.material_label[self.mesh.element_material[element]],
                             self.mesh.element_body[element], point))
-        known, first = np.unique(point[order], return_index=True)
+        point, first = np.unique(point[order], return_index=True)
+        row = np.full(len(places), -1)
+        row[point] = order[first]
+        row = row[place.ravel()]
+        known = np.flatnonzero(row >= 0)
         if outside == "error" and len(known) < len(points):
-            missing = np.setdiff1d(np.arange(len(points)), known)
+            missing = np.flatnonzero(row < 0)
             where = "the mesh" if body is None and material is None else \
                 f"body {'any' if body is None else body}, material {'any' if material is None else material}"
             first_r, first_z = points[missing[0]]
             raise OutsideError(f"{len(missing)} of {len(points)} points outside {where}, the first at "
                                f"r = {first_r:g}, z = {first_z:g}; outside='nan' gives nan there")
-        return known, element[order][first], natural[order][first]
+        return known, element[row[known]], natural[row[known]]
 
     def chosen(self, body=None, material=None):
         """Which elements are of a body and a material (None: of any)."""
@@ -327,12 +331,17 @@ class Result:
 
         first, last: r and z of its ends; theta: an angle or several [degree]; points: how many at equal
         distances, or their distances from the first end over the length. Points outside the mesh are
-        left out; where solids meet, a point has a row for each, first for the one the line comes from.
+        left out, a line without others raises an OutsideError; where solids meet, a point has a row for each, first for
+        the one the line comes from.
         """
         first, last = np.asarray(first, float), np.asarray(last, float)
+        if not np.linalg.norm(last - first) > 0:
+            raise ValueError(f"the line has no length: its ends are {_place(first)} and {_place(last)}")
         share = np.linspace(0, 1, points) if np.isscalar(points) else np.asarray(points, float)
         place = (1 - share)[:, None]*first + share[:, None]*last
         number, element, natural = line_rows(self.mesh, place)
+        if not len(number):
+            raise OutsideError(f"all {len(place)} points of the line from {_place(first)} to {_place(last)} are outside the mesh")
         angles = np.atleast_1d(np.asarray(theta, float))
         values = [[self._totals(amplitude, index, element, natural, np.full(len(element), angle))
                    for angle in angles]
@@ -437,7 +446,7 @@ class Result:
 
         Amplitudes of displacements (increment, mode, node, component) and of smoothed stresses; relative
         displacements, stresses and states of joints (increment, plane [degree], joint_point); every series of
-        the increments; resultants and motion of cuts. Fields that are not kept of an increment are nan there.
+        the increments; resultants and motion of cuts. Fields and series that are not kept of an increment are nan there.
         """
         return convert.to_xarray(self)
 
@@ -508,6 +517,10 @@ def _datasets(file, group):
 
 def _columns(names, values):
     return {name: values[..., k] for k, name in enumerate(names)}
+
+
+def _place(point):
+    return f"r = {point[0]:g}, z = {point[1]:g}"
 
 
 def _places(owner):

@@ -80,6 +80,22 @@ class Conversions(unittest.TestCase):
         self.assertEqual(float(data["cuts"].sel(increment=6, resultant="lateral")[-2]),
                          float(self.monopile.history["cuts"][5, -2, 1]))
 
+    @needs("xarray")
+    def test_xarray_of_what_is_kept(self):
+        """Increments whose fields are kept, and whose series are not"""
+        keep = "KEEP", "    SERIES     EVERY    3", "  DISPLACE      ONLY    4    6", "    JOINTS      LAST"
+        result = axijoint.open(f"{jobs.run(self.folder.name, 'keep', jobs.input_deck('monopile', *keep))}.h5")
+        data = result.to_xarray()
+        self.assertEqual(data["increment"].values.tolist(), result.history.known.tolist())
+        for k in result.history.known:
+            here = data.sel(increment=k)
+            series, field = (k in numbers for numbers in (result.history.increment, result.history.increments_of("displacement")))
+            for name, there in (("work", series), ("cuts", series), ("displacement", field), ("joint_state", k == 8)):
+                self.assertEqual(bool(np.isfinite(here[name]).all()), there, f"{name} {k}")
+        self.assertIn(4, set(result.history.known.tolist()) - set(result.history.increment.tolist()))
+        np.testing.assert_array_equal(data["displacement"].sel(increment=4), result.at(4).displacement_amplitude)
+        np.testing.assert_array_equal(data["work"].sel(increment=6), result.increments["work"][1])
+
     @needs("pyvista")
     def test_pyvista(self):
         for result in (self.monopile, self.monopile.at(2), self.chimney):

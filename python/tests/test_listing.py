@@ -2,6 +2,7 @@
 import pathlib
 import tempfile
 import unittest
+import unittest.mock
 
 import jobs
 import listing
@@ -148,6 +149,30 @@ class Listing(unittest.TestCase):
             result.stress(0.1, 0.0, material=9)
         found = result.displacement([0.1, 5.0, np.nan], 0.0, outside="nan")
         self.assertTrue(np.isfinite(found[0]).all() and np.isnan(found[1:]).all())
+
+    def test_lines_without_points(self):
+        result = self.jobs["case3"][0]
+        with self.assertRaisesRegex(axijoint.OutsideError, "all 5 points of the line from r = 50, z = 0 to r = 60, z = 1 are"):
+            result.line((50, 0), (60, 1), points=5)
+        with self.assertRaisesRegex(ValueError, "no length: its ends are r = 0.1, z = 0.2 and r = 0.1, z = 0.2"):
+            result.line((0.1, 0.2), (0.1, 0.2))
+
+    def test_points_at_angles(self):
+        """A place is looked for once, whatever angles there are of it"""
+        result = self.jobs["case3"][0]
+        r, z, theta = np.array([0.1, 0.4, 0.5, 9.0]), np.array([0.3, 0.3, 0.4, 0.0]), np.arange(0, 360, 30)
+        with unittest.mock.patch.object(result.mesh, "locate", wraps=result.mesh.locate) as locate:
+            found = result.displacement(r[:, None], z[:, None], theta, outside="nan")
+            radius, angles = np.meshgrid(r, theta)
+            stress = result.stress(radius, 0.3, angles, outside="nan")
+        self.assertEqual([len(one.args[0]) for one in locate.call_args_list], [4, 4])
+        self.assertEqual((found.shape, stress.shape), ((4, 12, 3), (12, 4, 6)))
+        for k in range(3):
+            for j, angle in enumerate(theta):
+                np.testing.assert_allclose(found[k, j], result.displacement(r[k], z[k], angle), rtol=0, atol=1e-15)
+        self.assertTrue(np.isnan(found[3]).all())
+        with self.assertRaisesRegex(axijoint.OutsideError, "12 of 48 points outside the mesh, the first at r = 9, z = 0"):
+            result.displacement(r[:, None], z[:, None], theta)
 
     def test_solids_that_meet(self):
         result = self.jobs["case3"][0]

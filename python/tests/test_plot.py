@@ -14,7 +14,7 @@ import numpy as np
 try:
     from axijoint import plot
     from axijoint.plot import __main__ as command
-    from axijoint.plot import fields, pieces, style, yielding
+    from axijoint.plot import curves, fields, pieces, style, yielding
     from overlaps import overlaps
 except ImportError:
     plot = None
@@ -44,6 +44,28 @@ FIXEDFACES
 1, 111
 RESULTANTS
 2, LATERAL, 1.0
+END
+"""
+RINGS = """TITLE
+Two rings with a gap between them
+CONTROL
+1
+MATERIALS
+1, 2.1E8, 0.3
+BLOCKS
+1, 1, 8, 2, 2
+1.0, 0.0, 1.4, 1.0
+2, 1, 8, 2, 2
+1.8, 0.0, 2.0, 1.0
+FACES
+1, 1, 1.0, 0.0, 1.4, 0.0
+2, 2, 1.8, 0.0, 2.0, 0.0
+3, 1, 1.0, 1.0, 1.4, 1.0
+FIXEDFACES
+1, 111
+2, 111
+RESULTANTS
+3, LATERAL, 1.0
 END
 """
 # Of a pile, and the tables with them
@@ -84,6 +106,16 @@ class Figures(unittest.TestCase):
             jobs.run(folder, "tower", TOWER)
             for name, figure in plot.figures(axijoint.open(pathlib.Path(folder)/"tower.h5"), ["mesh", "deformed"]):
                 self.assertEqual(overlaps(figure), [], name)
+
+    def test_lines_through_hollows(self):
+        """No line is drawn where there is nothing; points of a section that goes on outside are where the deck has them"""
+        with tempfile.TemporaryDirectory() as folder:
+            jobs.run(folder, "rings", RINGS)
+            self.assertEqual([name for name, _ in plot.figures(axijoint.open(f"{folder}/rings.h5"), ["sections"])], ["line_across"])
+            deck = jobs.input_deck("first", "SECTIONS", "1, 0.0, 0.5, 4.0, 0.5, 41, 0.0")
+            result = axijoint.open(f"{jobs.run(folder, 'first', deck)}.h5")
+            turned, = curves.sections(result, (90.0,)).values()
+            np.testing.assert_allclose(turned.position, result.section(1).position, atol=1e-12)
 
     def test_bodies_that_yield(self):
         """Plastic zones where the pile presses; planes are found at all angles, mirrored beyond 180 degrees"""
@@ -373,10 +405,11 @@ class Monopile(unittest.TestCase):
     def test_figures_of_each_angle(self):
         """Of kinds with one direction, angles have figures of their own, and rows of their own in tables"""
         out = pathlib.Path(self.folder.name)/"angles"
-        code, _, said = self.run_command("pile", "points", "deformed", "pisa", "--angles", "0,60", "--format", "svg", "-o", str(out))
-        self.assertEqual((code, said), (0, ""))
         kinds = ("pile", "points", "deformed", "pisa")
-        self.assertEqual({path.name for path in out.glob("*.svg")}, {f"monopile_{kind}_theta_{at}.svg" for kind in kinds for at in (0, 60)})
+        code, _, said = self.run_command(*kinds, "--angles", "0,60", "--format", "svg", "-o", str(out))
+        self.assertEqual((code, said), (0, ""))
+        self.assertEqual({path.name for path in out.glob("*.svg")},
+                         {f"monopile_{kind}_theta_{at}.svg" for kind in kinds for at in (0, 60)})
         both, one = (dict(plot.tables(self.result, kinds, plot.Options(angles=angles))) for angles in ((0, 60), (60,)))
         self.assertEqual(both.keys(), {"pile", "points", "pisa_shaft", "pisa_base"})
         for name, table in both.items():

@@ -95,7 +95,7 @@ class Views(unittest.TestCase):
         dict(self.check(job, found))
 
     def test_curves_are_along_the_load(self):
-        """A pile that is pushed towards 60 degrees: what it carries and how it moves there, as along 0 where that is pushed towards"""
+        """A pile that is pushed towards 60 degrees: what it carries and how it moves there, as along 0 if it is pushed there"""
         plain = self.jobs["monopile"][0]
         turned, = report.jobs_of(jobs.run(self.folder.name, "turned", jobs.turned_monopile(60)))
         found, wanted = (curves.curves(job, range(1, 9)) for job in (turned, plain))

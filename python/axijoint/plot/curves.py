@@ -4,6 +4,7 @@ from dataclasses import replace
 import numpy as np
 
 from ..components import STRESSES
+from ..result import OutsideError
 from . import pieces, style
 from .options import Options
 from .style import plt
@@ -30,11 +31,20 @@ def sections(result, angles=None):
     if result.section_numbers:
         stored = {f"section_{number}": result.section(number) for number in result.section_numbers}
         return stored if angles is None else {
-            name: replace(result.line(one.first, one.last, angles, one.point.max()), number=one.number)
+            name: replace(result.line(one.first, one.last, angles, _points(result, one)), number=one.number)
             for name, one in stored.items()}
-    names = ("line_across", "line_along")
-    return dict(zip(names, (result.line(*ends, theta=(0, 180) if angles is None else angles, points=201)
-                            for ends in default_lines(result))))
+    found = {}
+    for name, ends in zip(("line_across", "line_along"), default_lines(result)):
+        try:
+            found[name] = result.line(*ends, theta=(0, 180) if angles is None else angles, points=201)
+        except OutsideError:  # through a hollow
+            continue
+    return found
+
+
+def _points(result, section):
+    """Number of points of a section of the deck, those outside the mesh with them."""
+    return int(result.attributes_of(f"sections/{section.number}")["points"])
 
 
 def of_solid(section, options):

@@ -11,7 +11,8 @@ from ..joint_points import JointPoints
 LEAST_ANGLES, ANGLES_OF_A_WAVE = 72, 16
 # A sum of harmonics grows between these by at most (M step)^2/8 of its largest size, the square of a length by four times as much
 GROWTH = (2*np.pi/ANGLES_OF_A_WAVE)**2/8*4
-# Between angles, where joints do not yield, and at nodes: steps to where it is looked for something larger, and the least of them [degree]
+# Between angles, at nodes and where joints do not yield: steps to where it is looked for something larger, and the least
+# of them [degree]
 AROUND, LEAST_STEP = np.array([0, 0.25, -0.25, 0.5, -0.5, 0.75, -0.75, 1, -1]), 1e-4
 # A share by which values at two angles differ by rounding
 ROUNDING = 1e-12
