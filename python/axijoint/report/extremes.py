@@ -72,7 +72,8 @@ def _largest(result, amplitude, of):
         peak = values[first, k], first, angles[place[first, k]]
         if highest and largest > 0:
             near = np.flatnonzero(values[:, k] >= peak[0] - GROWTH*largest)
-            climbed, theta = _climbed(lambda tried, near=near, k=k: at(tried, near)[..., k], angles[place[near, k]], 360/count)
+            climbed, theta = _climbed(lambda tried, near=near, k=k: np.array([at(angle, near)[:, k] for angle in tried]),
+                                      angles[place[near, k]], 360/count)
             best = climbed.argmax()
             if climbed[best] - peak[0] > ROUNDING*largest:
                 peak = climbed[best], near[best], theta[best]

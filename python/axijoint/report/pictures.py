@@ -5,6 +5,7 @@ import re
 
 import numpy as np
 
+from ..resultants import direction
 from ..result import STATES
 from .extremes import extremes, joint_peaks
 from .markup import Markup, joined, number, running, tag
@@ -20,6 +21,8 @@ NARROW = 600
 NAMES = {"displacement": "Length of the displacement", "sigma_r": "Radial stress σ_r", "sigma_z": "Axial stress σ_z",
          "sigma_theta": "Hoop stress σ_θ", "tau_rz": "Shear stress τ_rz", "tau_rtheta": "Shear stress τ_rθ",
          "tau_ztheta": "Shear stress τ_zθ"}
+# Kinds of figures of one direction, that say it themselves
+ALONG_THE_LOAD = ("points", "pile", "py", "tz", "pisa")
 # Figures of bodies that yield: caption, and in words what it shows
 YIELDING = {
     "yielding": ("Yielding", "Planes θ = 0 (right) and θ = 180° (left): the largest equivalent plastic strain in each element."),
@@ -38,13 +41,21 @@ def pictures(job, mark):
     """
     from .. import plot
     shown = []
-    for name, figure in plot.figures(job.result):
+    for name, figure in _figures(job.result, plot):
         caption, words = describe(job, name)
         source, width, height = embedded(figure, plot)
         shown.append(tag("figure", tag("img", src=source, alt=f"{mark}{caption}. {words}", width=width, height=height),
                          tag("figcaption", tag("strong", running(f"{mark}{caption}.")), " ", running(words)),
                          class_="narrow" if width <= NARROW else None))
     return Markup(f'<div class="figures">\n{joined(shown)}\n</div>')
+
+
+def _figures(result, plot):
+    """Yield name and figure of all kinds that tell something; those of forces and motions in one direction are along the load."""
+    turned = plot.Options(angles=(direction(result.history),))
+    for kind, one in plot.KINDS.items():
+        if one.tells(result):
+            yield from plot.figures(result, [kind], turned if kind in ALONG_THE_LOAD else plot.Options())
 
 
 def embedded(figure, plot):
