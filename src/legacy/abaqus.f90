@@ -17,6 +17,8 @@ module axijoint_legacy_abaqus
    use axijoint_legacy_abaqus_mesh, only : abaqus_type, read_nodes, read_elements, read_set, &
       gather_nodes, read_surface, number_at, root_of
    use axijoint_legacy_abaqus_parameters, only : check_parameters, leave_data, elsewhere, r_and_z
+   use axijoint_legacy_abaqus_temperatures, only : temperatures_type, open_temperatures, read_initial, read_temperatures, &
+      put_temperatures
    use axijoint_legacy_cards, only : cards_type
    use axijoint_legacy_list, only : set_type, open_set, find_set
    use axijoint_legacy_sketch, only : sketch_type, leave_out, part_nodes, part_elements, part_notes
@@ -37,6 +39,8 @@ module axijoint_legacy_abaqus
       type(boundary_type) :: boundary
       type(contact_type) :: contact
       type(body_loads_type) :: bodies
+      !> Temperatures
+      type(temperatures_type) :: temperatures
       !> Steps so far, and *BOUNDARY in this one
       integer :: n_steps = 0, n_boundaries = 0
    end type file_type
@@ -83,6 +87,7 @@ contains
          allocate (mesh%node_sets(0), mesh%element_sets(0), mesh%surfaces(0), file%names(0))
          call open_body_loads(n, file%bodies)
          call open_boundary(n, file%boundary)
+         call open_temperatures(n, file%temperatures)
          call read_mesh(cards, mesh, file%names)
       end associate
       allocate (file%materials(size(file%names)))
@@ -94,6 +99,7 @@ contains
       end do
       if (cards%diagnostics%n_errors > 0) return
       call put_boundary(file%mesh, file%boundary, sketch)
+      call put_temperatures(file%mesh, file%temperatures, sketch)
       call put_contact(cards, file%mesh, file%contact, file%materials%young, sketch)
       call write_mesh(cards, file%names, file%materials, file%mesh, file%bodies, sketch)
    end subroutine read_abaqus
@@ -121,7 +127,7 @@ contains
          call read_group(cards, line, at, file%mesh, sketch)
       case ('MATERIAL')
          file%material = find_set(file%names, parameter_of(line, 'NAME'))
-      case ('ELASTIC', 'DENSITY', 'PLASTIC')
+      case ('ELASTIC', 'DENSITY', 'PLASTIC', 'EXPANSION')
          call read_property(cards, line, at, file%material, file%materials, sketch)
       case ('SOLID SECTION')  ! its data, a thickness, means nothing here
          call assign_material(cards, line, file%names, file%mesh)
@@ -138,7 +144,9 @@ contains
       case ('STEP')
          file%n_steps = file%n_steps + 1
          if (file%n_steps > 1) call leave_out(sketch, line%card, '*STEP: only the first is translated')
-      case ('BOUNDARY', 'CLOAD', 'DLOAD', 'DSLOAD')
+      case ('INITIAL CONDITIONS')
+         call read_initial(cards, line, at, file%mesh, file%temperatures, sketch)
+      case ('BOUNDARY', 'CLOAD', 'DLOAD', 'DSLOAD', 'TEMPERATURE')
          call read_load(cards, line, at, file, sketch)
       case ('NODE', 'ELEMENT', 'INSTANCE')  ! are read already
       case ('STATIC', 'END STEP', 'PART', 'END PART', 'ASSEMBLY', 'END ASSEMBLY', 'END INSTANCE')
@@ -204,6 +212,8 @@ contains
       else if (line%keyword == 'BOUNDARY') then
          call renew_boundary(cards, line, file%n_steps > 0, file%n_boundaries, file%boundary)
          call add_boundary(cards, line, at, file%mesh, file%boundary, sketch)
+      else if (line%keyword == 'TEMPERATURE') then
+         call read_temperatures(cards, line, at, file%mesh, file%temperatures, sketch)
       else if (line%keyword == 'CLOAD') then
          call add_ring_force(cards, line, at, file%mesh, sketch)
       else

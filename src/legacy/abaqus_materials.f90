@@ -9,8 +9,8 @@ module axijoint_legacy_abaqus_materials
    use axijoint_legacy_abaqus_parameters, only : leave_data
    use axijoint_legacy_cards, only : cards_type
    use axijoint_legacy_list, only : set_type, find_set
-   use axijoint_legacy_sketch, only : sketch_type, leave_out, part_materials, part_yield
-   use axijoint_legacy_words, only : put, exact
+   use axijoint_legacy_sketch, only : sketch_type, leave_out, part_materials, part_orthotropic, part_yield
+   use axijoint_legacy_words, only : put, list, exact
    implicit none
    private
    public :: material_type, read_property, assign_material, put_materials
@@ -21,6 +21,10 @@ module axijoint_legacy_abaqus_materials
       real(wp) :: young = 0.0_wp, poisson = 0.0_wp, density = 0.0_wp
       !> Yield stress, zero of a material that does not yield, and what it gains by a plastic strain of one
       real(wp) :: strength = 0.0_wp, hardening = 0.0_wp
+      !> Thermal expansion along r, z, theta
+      real(wp) :: expansion(3) = 0.0_wp
+      !> Along r, z, theta: E_1 E_2 E_3, nu_12 nu_13 nu_23, G_12 G_13 G_23; not allocated for a material that is isotropic
+      real(wp), allocatable :: constants(:)
    end type material_type
 
 contains
@@ -44,6 +48,10 @@ contains
          call fault_of(cards, line, 0, 'no material is named above', '*MATERIAL, NAME=')
       else if (line%keyword == 'PLASTIC') then
          call read_plastic(cards, line, at, materials(material), sketch)
+      else if (line%keyword == 'EXPANSION') then
+         call read_expansion(cards, line, at, materials(material), sketch)
+      else if (parameter_of(line, 'TYPE') == 'ENGINEERING CONSTANTS') then
+         call read_constants(cards, line, at, materials(material), sketch)
       else
          call read_elastic(cards, line, at, materials(material), sketch)
       end if
@@ -66,7 +74,7 @@ contains
 
       if (line%keyword == 'ELASTIC' .and. index(parameter_of(line, 'TYPE')//'ISO', 'ISO') /= 1) then
          call fault_of(cards, line, field_of(line, 'TYPE'), '*ELASTIC of this type is not translated', &
-            'isotropic materials: TYPE=ISOTROPIC, or no TYPE, and E, nu')
+            'TYPE=ISOTROPIC, or no TYPE, and E, nu; TYPE=ENGINEERING CONSTANTS')
          return
       end if
       call next_line(cards, at, data)
@@ -87,6 +95,69 @@ contains
             'its first line')
       end do
    end subroutine read_elastic
+
+   !> *ELASTIC, TYPE=ENGINEERING CONSTANTS: nine values on two lines
+   subroutine read_constants(cards, line, at, material, sketch)
+      !> The file
+      type(cards_type), intent(inout) :: cards
+      !> The keyword
+      type(line_type), intent(in) :: line
+      !> Its card; that of its data on return
+      integer, intent(inout) :: at
+      !> The material
+      type(material_type), intent(inout) :: material
+      !> Takes what is not translated
+      type(sketch_type), intent(inout) :: sketch
+
+      integer, parameter :: n_first = 8
+      type(line_type) :: first, second
+      integer :: k
+
+      if (.not. is_data(cards, at, first)) then
+         call fault_of(cards, line, 0, '*ELASTIC has no values')
+         return
+      end if
+      if (.not. is_data(cards, at, second)) then
+         call fault_of(cards, first, 0, 'there are too few values', 'E1 E2 E3 nu12 nu13 nu23 G12 G13, and G23 on the next line')
+         return
+      end if
+      material%constants = [(real_of(cards, first, k), k=1, n_first), real_of(cards, second, 1)]
+      material%young = minval(material%constants(:3))
+      do while (is_data(cards, at, first))
+         call leave_out(sketch, first%card, '*ELASTIC of other temperatures than that of its first lines')
+      end do
+   end subroutine read_constants
+
+   !> *EXPANSION: one value, or three along r, z, theta
+   subroutine read_expansion(cards, line, at, material, sketch)
+      !> The file
+      type(cards_type), intent(inout) :: cards
+      !> The keyword
+      type(line_type), intent(in) :: line
+      !> Its card; that of its data on return
+      integer, intent(inout) :: at
+      !> The material
+      type(material_type), intent(inout) :: material
+      !> Takes what is not translated
+      type(sketch_type), intent(inout) :: sketch
+
+      type(line_type) :: data
+      integer :: k
+
+      if (all(parameter_of(line, 'TYPE') /= [character(len=5) :: '', 'ISO', 'ORTHO'])) then
+         call leave_data(cards, line, at, sketch)
+         return
+      end if
+      if (.not. is_data(cards, at, data)) then
+         call fault_of(cards, line, 0, '*EXPANSION has no values')
+         return
+      end if
+      material%expansion = real_of(cards, data, 1)
+      if (parameter_of(line, 'TYPE') == 'ORTHO') material%expansion = [(real_of(cards, data, k), k=1, 3)]
+      do while (is_data(cards, at, data))
+         call leave_out(sketch, data%card, '*EXPANSION at other temperatures than that of its first line')
+      end do
+   end subroutine read_expansion
 
    !> *PLASTIC: yield stress and plastic strain a line
    subroutine read_plastic(cards, line, at, material, sketch)
@@ -208,13 +279,43 @@ contains
          !> What it is
          character(len=*), intent(in) :: remark
 
-         call put(sketch%parts(part_materials), '! '//remark)
-         call put(sketch%parts(part_materials), to_text(number)//', '// &
-            exact(materials(k)%young)//', '//exact(materials(k)%poisson)//', '//exact(density))
+         associate (a => materials(k)%expansion)
+            if (allocated(materials(k)%constants)) then
+               call put_orthotropic(number, materials(k)%constants, a, density, remark, sketch)
+            else
+               call put(sketch%parts(part_materials), '! '//remark)
+               call put(sketch%parts(part_materials), list([materials(k)%young, materials(k)%poisson, density, &
+                  pack(a(:1), abs(a(:1)) > 0.0_wp)], number))
+               if (any(abs(a - a(1)) > 0.0_wp)) call add_error(cards%diagnostics, names(k)%card, 0, 0, 'material '// &
+                  names(k)%name//' expands along r, z and theta by other parts', &
+                  allowed='*EXPANSION, TYPE=ORTHO with *ELASTIC, TYPE=ENGINEERING CONSTANTS')
+            end if
+         end associate
          if (materials(k)%strength > 0.0_wp) call put(sketch%parts(part_yield), to_text(number)//', MISES, '// &
             exact(materials(k)%strength)//', , , '//exact(materials(k)%hardening))
       end subroutine put_one
 
    end subroutine put_materials
+
+   !> Cards of an orthotropic material
+   subroutine put_orthotropic(number, constants, expansion, density, remark, sketch)
+      !> Its number
+      integer, intent(in) :: number
+      !> E_1 E_2 E_3, nu_12 nu_13 nu_23, G_12 G_13 G_23
+      real(wp), intent(in) :: constants(:)
+      !> Thermal expansion along r, z, theta, and the density
+      real(wp), intent(in) :: expansion(3), density
+      !> What it is
+      character(len=*), intent(in) :: remark
+      !> Takes the cards
+      type(sketch_type), intent(inout) :: sketch
+
+      associate (part => sketch%parts(part_orthotropic), c => constants)
+         call put(part, '! '//remark)
+         call put(part, list([c(1:3), 0.0_wp, density, expansion(1:2)], number))
+         call put(part, exact(c(4))//', '//exact(c(6))//', '//exact(c(5))//', '//exact(c(7))//', '//exact(c(9))//', '// &
+            exact(c(8))//', '//exact(expansion(3)))
+      end associate
+   end subroutine put_orthotropic
 
 end module axijoint_legacy_abaqus_materials

@@ -85,6 +85,12 @@ contains
          known = [character(len=n_letters) :: 'NAME']
       case ('ELASTIC')
          known = [character(len=n_letters) :: 'TYPE', 'MODULI=LONG TERM']
+      case ('EXPANSION')
+         known = [character(len=n_letters) :: 'TYPE', 'ZERO']
+      case ('INITIAL CONDITIONS')
+         known = [character(len=n_letters) :: 'TYPE', 'FILE']
+      case ('TEMPERATURE')
+         known = [character(len=n_letters) :: 'OP', 'AMPLITUDE', 'FILE']
       case ('PLASTIC')
          known = [character(len=n_letters) :: 'HARDENING']
       case ('SOLID SECTION')

@@ -10,18 +10,19 @@ module axijoint_legacy_sketch
    implicit none
    private
    public :: sketch_type, leave_out, tell_left, write_sketch
-   public :: part_materials, part_yield, part_laws, part_law_details, part_nodes, part_elements, part_joints, &
-      part_restraints, part_chains, part_tractions, part_pressures, part_ring_loads, part_gravity, part_rotation, part_moved, &
-      part_notes, n_parts
+   public :: part_materials, part_orthotropic, part_yield, part_laws, part_law_details, part_nodes, part_elements, part_joints, &
+      part_restraints, part_chains, part_tractions, part_pressures, part_ring_loads, part_gravity, part_rotation, &
+      part_temperatures, part_moved, part_notes, n_parts
 
    !> Sections, in the order in which they are written, and remarks on groups
-   integer, parameter :: part_materials = 1, part_yield = 2, part_laws = 3, part_law_details = 4, part_nodes = 5, &
-      part_elements = 6, part_joints = 7, part_chains = 8, part_restraints = 9, part_tractions = 10, part_pressures = 11, &
-      part_ring_loads = 12, part_gravity = 13, part_rotation = 14, part_moved = 15, part_notes = 16, n_parts = 16
+   integer, parameter :: part_materials = 1, part_orthotropic = 2, part_yield = 3, part_laws = 4, part_law_details = 5, &
+      part_nodes = 6, part_elements = 7, part_joints = 8, part_chains = 9, part_restraints = 10, part_tractions = 11, &
+      part_pressures = 12, part_ring_loads = 13, part_gravity = 14, part_rotation = 15, part_temperatures = 16, part_moved = 17, &
+      part_notes = 18, n_parts = 18
    !> Their keywords
-   character(len=*), parameter :: keywords(n_parts) = [character(len=10) :: 'MATERIALS', 'YIELD', 'LAWS', 'LAWDETAILS', &
-      'NODES', 'ELEMENTS', 'JOINTS', 'CHAINS', 'RESTRAINTS', 'TRACTIONS', 'PRESSURES', 'RINGLOADS', 'GRAVITY', &
-      'ROTATION', 'MOVEDNODES', '']
+   character(len=*), parameter :: keywords(n_parts) = [character(len=11) :: 'MATERIALS', 'ORTHOTROPIC', 'YIELD', 'LAWS', &
+      'LAWDETAILS', 'NODES', 'ELEMENTS', 'JOINTS', 'CHAINS', 'RESTRAINTS', 'TRACTIONS', 'PRESSURES', 'RINGLOADS', 'GRAVITY', &
+      'ROTATION', 'NODETEMPS', 'MOVEDNODES', '']
 
    !> Lines that follow each other and are not translated
    type :: left_type
