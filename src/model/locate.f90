@@ -7,7 +7,7 @@ module axijoint_model_locate
    use axijoint_model_request, only : line_type, line_point_type
    implicit none
    private
-   public :: locate_points, locate_beside, line_position
+   public :: locate_points, locate_beside, line_position, element_reach
 
    !> Share of an element's extent by which its box is widened: for rounding, and
    !> for curved sides, which may leave the box of their nodes; and by which a node may be off the middle of a straight side
@@ -32,23 +32,45 @@ contains
                  /real(line%n_points - 1, wp)
    end function line_position
 
+   !> Heights between which points of each element are looked for
+   pure function element_reach(mesh) result(reach)
+      !> The mesh
+      type(mesh_type), intent(in) :: mesh
+      !> Least and largest z, shape (2, elements)
+      real(wp) :: reach(2, n_elements(mesh))
+
+      real(wp) :: low(2), high(2)
+      integer :: element
+
+      do element = 1, n_elements(mesh)
+         call find_box(mesh, element, low, high)
+         reach(:, element) = [low(2), high(2)]
+      end do
+   end function element_reach
+
    !> Fill the points of a line that lie in elements
-   subroutine locate_points(mesh, line)
+   subroutine locate_points(mesh, line, elements)
       !> The mesh
       type(mesh_type), intent(in) :: mesh
       !> The line
       type(line_type), intent(inout) :: line
+      !> Elements that alone can have some of them, ascending; all if absent
+      integer, intent(in), optional :: elements(:)
 
       type(line_point_type), allocatable :: hits(:)
       type(line_point_type) :: hit
       integer, allocatable :: first(:), next(:)
-      integer :: element, number, from, to, count
+      integer :: element, number, from, to, count, k, n
       logical :: inside
 
       allocate (hits(2*line%n_points), next(2*line%n_points))
       allocate (first(line%n_points), source=0)
       count = 0
-      do element = 1, n_elements(mesh)
+      n = n_elements(mesh)
+      if (present(elements)) n = size(elements)
+      do k = 1, n
+         element = k
+         if (present(elements)) element = elements(k)
          call points_near(mesh, element, line, from, to)
          do number = from, to
             hit%number = number
@@ -194,16 +216,9 @@ contains
       integer, intent(out) :: from, to
 
       real(wp) :: low(2), high(2), t(2), span(2)
-      integer :: axis, n
+      integer :: axis
 
-      n = mesh%element_size(element)
-      associate (x => mesh%coordinates(:, mesh%element_nodes(:n, element)))
-         low = minval(x, 2)
-         high = maxval(x, 2)
-         span = maxval(high - low)*merge(straight_margin, curved_margin, is_straight(x, off_middle*maxval(high - low)))
-      end associate
-      low = low - span
-      high = high + span
+      call find_box(mesh, element, low, high)
       t = [0.0_wp, 1.0_wp]
       from = 1
       to = 0
@@ -221,6 +236,28 @@ contains
       from = ceiling(t(1)*(line%n_points - 1)) + 1
       to = floor(t(2)*(line%n_points - 1)) + 1
    end subroutine points_near
+
+   !> Box around an element that no point of it is outside of
+   pure subroutine find_box(mesh, element, low, high)
+      !> The mesh
+      type(mesh_type), intent(in) :: mesh
+      !> The element
+      integer, intent(in) :: element
+      !> Least and largest r and z
+      real(wp), intent(out) :: low(2), high(2)
+
+      real(wp) :: span
+      integer :: n
+
+      n = mesh%element_size(element)
+      associate (x => mesh%coordinates(:, mesh%element_nodes(:n, element)))
+         low = minval(x, 2)
+         high = maxval(x, 2)
+         span = maxval(high - low)*merge(straight_margin, curved_margin, is_straight(x, off_middle*maxval(high - low)))
+      end associate
+      low = low - span
+      high = high + span
+   end subroutine find_box
 
    !> Whether the sides of an element are straight, their nodes in the middle: then it is no larger than its corners say
    pure logical function is_straight(x, rounding)

@@ -4,8 +4,8 @@ module axijoint_analysis_core_cut_motion
    use axijoint_base_kinds, only : wp
    use axijoint_fe_mode, only : mode_type, is_torsion, family_symmetric
    use axijoint_fe_shape, only : shape_element
-   use axijoint_model_locate, only : locate_points
-   use axijoint_model_mesh, only : mesh_type, n_elements, max_element_nodes
+   use axijoint_model_locate, only : locate_points, element_reach
+   use axijoint_model_mesh, only : mesh_type, max_element_nodes
    use axijoint_model_request, only : cut_type, line_type
    implicit none
    private
@@ -25,11 +25,15 @@ contains
       !> One line a cut
       type(line_type), allocatable :: sections(:)
 
-      integer :: c
+      real(wp), allocatable :: reach(:, :)
+      integer :: c, k
 
       allocate (sections(size(cuts)))
+      if (size(cuts) == 0) return
+      reach = element_reach(mesh)
       do c = 1, size(cuts)
-         call find_section(mesh, cuts(c), sections(c))
+         call find_section(mesh, cuts(c), pack([(k, k=1, size(reach, 2))], &
+            reach(1, :) <= cuts(c)%z .and. cuts(c)%z <= reach(2, :)), sections(c))
       end do
    end function cut_sections
 
@@ -51,7 +55,7 @@ contains
 
       real(wp) :: shape(max_element_nodes), derivative(2, max_element_nodes)
       real(wp) :: matrix(2, 2, size(modes)), right(2, size(modes)), basis(3, 2), u(3)
-      integer :: i, k, n
+      integer :: i, j, k, n
 
       matrix = 0.0_wp
       right = 0.0_wp
@@ -64,7 +68,10 @@ contains
                do k = 1, size(modes)
                   if (modes(k)%harmonic > 1) cycle
                   basis = rigid_basis(modes(k), point%position(1))
-                  u = matmul(displacement(:, nodes, k), shape(:n))
+                  u = 0.0_wp
+                  do j = 1, n
+                     u = u + displacement(:, nodes(j), k)*shape(j)
+                  end do
                   matrix(:, :, k) = matrix(:, :, k) &
                      + point%position(1)*matmul(transpose(basis), basis)
                   right(:, k) = right(:, k) + point%position(1)*matmul(u, basis)
@@ -88,32 +95,35 @@ contains
    end function cut_motion
 
    !> Points on the cut, at equal distances
-   subroutine find_section(mesh, cut, line)
+   subroutine find_section(mesh, cut, elements, line)
       !> The mesh
       type(mesh_type), intent(in) :: mesh
       !> The cut
       type(cut_type), intent(in) :: cut
+      !> Elements that it can pass through, ascending
+      integer, intent(in) :: elements(:)
       !> The points that lie in elements
       type(line_type), intent(out) :: line
 
       real(wp) :: low, high
-      integer :: element
+      integer :: k
 
       low = huge(low)
       high = 0.0_wp
-      do element = 1, n_elements(mesh)
-         if (cut%body > 0 .and. mesh%element_body(element) /= cut%body) cycle
-         associate (x => mesh%coordinates(:, &
-            mesh%element_nodes(:mesh%element_size(element), element)))
-            if (minval(x(2, :)) > cut%z .or. maxval(x(2, :)) < cut%z) cycle
-            low = min(low, minval(x(1, :)))
-            high = max(high, maxval(x(1, :)))
+      do k = 1, size(elements)
+         associate (element => elements(k))
+            if (cut%body > 0 .and. mesh%element_body(element) /= cut%body) cycle
+            associate (x => mesh%coordinates(:, mesh%element_nodes(:mesh%element_size(element), element)))
+               if (minval(x(2, :)) > cut%z .or. maxval(x(2, :)) < cut%z) cycle
+               low = min(low, minval(x(1, :)))
+               high = max(high, maxval(x(1, :)))
+            end associate
          end associate
       end do
       line%n_points = n_section
       line%first = [min(low, high), cut%z]
       line%last = [high, cut%z]
-      call locate_points(mesh, line)
+      call locate_points(mesh, line, elements)
    end subroutine find_section
 
    !> Amplitudes u, v, w of the rigid motions of a mode at the height of the cut

@@ -1,7 +1,7 @@
 !> Resultants of the stresses on cuts z = const
 module axijoint_analysis_core_cuts
-   use axijoint_analysis_core_cut_loads, only : plane_type, edge_load_excess, spring_excess, &
-      joint_excess, mass_excess, resultants_above
+   use axijoint_analysis_core_cut_loads, only : edge_load_excess, spring_excess, joint_excess, mass_excess, resultants_above
+   use axijoint_analysis_core_cut_planes, only : plane_type, from_cut
    use axijoint_analysis_core_fields, only : fields_type, n_resultants
    use axijoint_analysis_core_structure, only : structure_type
    use axijoint_assembly_loading, only : loading_type
@@ -9,15 +9,11 @@ module axijoint_analysis_core_cuts
    use axijoint_base_kinds, only : wp
    use axijoint_fe_mode, only : mode_type
    use axijoint_joints_field, only : joint_field_type, stress_amplitude
-   use axijoint_model_mesh, only : mesh_type, max_element_nodes, n_elements, n_nodes
+   use axijoint_model_mesh, only : mesh_type, max_element_nodes, n_elements, n_joints, n_nodes
    use axijoint_model_model, only : model_type
-   use axijoint_model_request, only : cut_type
    implicit none
    private
    public :: cut_resultants
-
-   !> Nodes this near to a cut, over the extent of the mesh, are on it
-   real(wp), parameter :: on_cut = 1.0e-9_wp
 
 contains
 
@@ -31,7 +27,7 @@ contains
    subroutine cut_resultants(model, structure, loading, field, results)
       !> The job
       type(model_type), intent(in) :: model
-      !> Joints and springs
+      !> Joints, springs and cuts
       type(structure_type), intent(in) :: structure
       !> Loads at the end
       type(loading_type), intent(in) :: loading
@@ -40,34 +36,31 @@ contains
       !> Results; displacements are there already
       class(fields_type), intent(inout) :: results
 
-      type(plane_type), allocatable :: planes(:)
-      real(wp), allocatable :: force(:, :, :), shares(:, :, :, :), stress(:, :)
+      real(wp), allocatable :: force(:, :, :), shares(:, :, :, :), springs(:, :, :), joints(:, :, :)
       logical, allocatable :: crossed(:)
-      integer :: k, c
+      integer, allocatable :: places(:)
+      integer :: c, k, m
 
       allocate (results%cut_resultants(n_resultants, size(model%cuts)), source=0.0_wp)
       if (size(model%cuts) == 0) return
       allocate (force(3, n_nodes(model%mesh), 1))
       allocate (shares(3, max_element_nodes, n_elements(model%mesh), 1))
       allocate (crossed(n_elements(model%mesh)), source=.false.)
-      allocate (planes(size(model%cuts)))
-      do c = 1, size(planes)
-         planes(c) = new_plane(model, model%cuts(c))
-         crossed(planes(c)%crossed) = .true.
+      do c = 1, size(structure%cuts)
+         crossed(structure%cuts(c)%crossed) = .true.
       end do
-      do k = 1, size(results%modes)
-         if (results%modes(k)%harmonic > 1) cycle  ! no resultants
-         associate (mode => results%modes(k), displacement => results%displacement(:, :, k), &
-                    case_factor => loading%case_factor)
-            stress = stress_amplitude(structure%joint_points, mode, displacement, field, k)
+      places = pack([(k, k=1, size(results%modes))], results%modes%harmonic <= 1)  ! others have no resultants
+      call displaced_excess(model, structure, places, field, results, springs, joints)
+      do m = 1, size(places)
+         k = places(m)
+         associate (mode => results%modes(k), case_factor => loading%case_factor)
             call solid_force(model, loading%initial, k, [mode], results%displacement(:, :, k:k), force, &
                counts=crossed, shares=shares)
-            do c = 1, size(planes)
-               associate (plane => planes(c), total => results%cut_resultants(:, c))
+            do c = 1, size(structure%cuts)
+               associate (plane => structure%cuts(c), total => results%cut_resultants(:, c))
                   total = total + crossed_resultants(model%mesh, plane, mode, shares(:, :, :, 1)) &
                      - edge_load_excess(model, plane, mode, case_factor) &
-                     - spring_excess(model, plane, mode, displacement) &
-                     - joint_excess(model, plane, mode, stress) &
+                     - springs(:, m, c) - joints(:, m, c) &
                      - mass_excess(model, plane, mode, case_factor)
                end associate
             end do
@@ -75,12 +68,51 @@ contains
       end do
    end subroutine cut_resultants
 
+   !> What nodal forces of springs and joints count too much, in all modes at once: shapes and directions are those of all
+   subroutine displaced_excess(model, structure, places, field, results, springs, joints)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Joints, springs and cuts
+      type(structure_type), intent(in) :: structure
+      !> Places of the modes that count
+      integer, intent(in) :: places(:)
+      !> State of the joints
+      type(joint_field_type), intent(in) :: field
+      !> Results with displacements
+      class(fields_type), intent(in) :: results
+      !> Resultants, shape (n_resultants, these modes, cuts)
+      real(wp), allocatable, intent(out) :: springs(:, :, :), joints(:, :, :)
+
+      type(mode_type) :: modes(size(places))
+      real(wp), allocatable :: stress(:, :, :), displacement(:, :, :)
+      integer :: first(n_joints(model%mesh))
+      integer :: c, i, m
+
+      modes = results%modes(places)
+      displacement = results%displacement(:, :, places)
+      allocate (stress(3, size(structure%joint_points), size(places)))
+      do m = 1, size(places)
+         stress(:, :, m) = stress_amplitude(structure%joint_points, modes(m), displacement(:, :, m), field, places(m))
+      end do
+      do i = size(structure%joint_points), 1, -1
+         first(structure%joint_points(i)%joint) = i
+      end do
+      allocate (springs(n_resultants, size(places), size(structure%cuts)))
+      allocate (joints, mold=springs)
+      do c = 1, size(structure%cuts)
+         associate (plane => structure%cuts(c)%plane_type)
+            springs(:, :, c) = spring_excess(model, plane, modes, displacement)
+            joints(:, :, c) = joint_excess(model, plane, modes, first, stress)
+         end associate
+      end do
+   end subroutine displaced_excess
+
    !> Resultants of the forces of the elements that a cut passes through, on their nodes above it
    pure function crossed_resultants(mesh, plane, mode, shares) result(total)
       !> The mesh
       type(mesh_type), intent(in) :: mesh
       !> The cut
-      type(plane_type), intent(in) :: plane
+      class(plane_type), intent(in) :: plane
       !> The mode
       type(mode_type), intent(in) :: mode
       !> Share of each element in the nodal forces, shape (3, max_element_nodes, elements)
@@ -94,46 +126,11 @@ contains
       do k = 1, size(plane%crossed)
          associate (element => plane%crossed(k))
             associate (n => mesh%element_size(element))
-               total = total + resultants_above(plane, mode, mesh%element_nodes(:n, element), shares(:, :n, element))
+               total = total + resultants_above(plane, mode, from_cut(plane, mesh, mesh%element_nodes(:n, element)), &
+                  shares(:, :n, element))
             end associate
          end associate
       end do
    end function crossed_resultants
-
-   !> Nodes above and below a cut. A node on the cut is below it: loads there act
-   !> below; but at the top of what is cut they act above
-   pure function new_plane(model, cut) result(plane)
-      !> The job
-      type(model_type), intent(in) :: model
-      !> The cut
-      type(cut_type), intent(in) :: cut
-      !> The nodes
-      type(plane_type) :: plane
-
-      logical, allocatable :: crossed(:)
-      real(wp) :: tolerance
-      integer :: element
-
-      allocate (plane%cut(n_nodes(model%mesh)), source=.false.)
-      do element = 1, n_elements(model%mesh)
-         if (cut%body > 0 .and. model%mesh%element_body(element) /= cut%body) cycle
-         plane%cut(model%mesh%element_nodes(:model%mesh%element_size(element), element)) = .true.
-      end do
-      associate (x => model%mesh%coordinates)
-         tolerance = on_cut*maxval(maxval(x, 2) - minval(x, 2))
-         plane%position = x
-         plane%position(2, :) = x(2, :) - cut%z
-      end associate
-      plane%above = plane%position(2, :) > tolerance
-      if (.not. any(plane%above .and. plane%cut)) plane%above = plane%position(2, :) >= -tolerance
-      allocate (crossed(n_elements(model%mesh)), source=.false.)
-      do element = 1, size(crossed)
-         if (cut%body > 0 .and. model%mesh%element_body(element) /= cut%body) cycle
-         associate (above => plane%above(model%mesh%element_nodes(:model%mesh%element_size(element), element)))
-            crossed(element) = any(above) .and. .not. all(above)
-         end associate
-      end do
-      plane%crossed = pack([(element, element=1, size(crossed))], crossed)
-   end function new_plane
 
 end module axijoint_analysis_core_cuts

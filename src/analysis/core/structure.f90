@@ -1,5 +1,6 @@
 !> What all load combinations of a job share: modes, joints, factored equations
 module axijoint_analysis_core_structure
+   use axijoint_analysis_core_cut_loads, only : loaded_plane_type, new_loaded_planes
    use axijoint_analysis_core_cut_motion, only : cut_sections
    use axijoint_analysis_core_footprint, only : footprint_type, data_footprint
    use axijoint_analysis_core_results, only : ordering_type
@@ -68,7 +69,8 @@ module axijoint_analysis_core_structure
       !> there, is judged
       type(singular_place_type), allocatable :: singular(:)
       logical, allocatable :: judged(:)
-      !> Sections at the cuts of the job
+      !> Cuts of the job, and sections there
+      type(loaded_plane_type), allocatable :: cuts(:)
       type(line_type), allocatable :: sections(:)
       !> Orders of the nodes side by side
       type(ordering_type), allocatable :: orderings(:)
@@ -179,6 +181,7 @@ contains
          !$omp end task
       end if
       !$omp task default(shared)
+      structure%cuts = new_loaded_planes(model)
       structure%sections = cut_sections(model%mesh, model%cuts)
       !$omp end task
       call plan_systems(model, structure, progress, error)
@@ -304,6 +307,7 @@ contains
 
       call new_unit_loads(model, structure%joint_points, structure%equations%unit_loads)
       if (structure%estimated) call take_fine_model(model, structure%fine)
+      structure%cuts = new_loaded_planes(model)
       structure%sections = cut_sections(model%mesh, model%cuts)
    end subroutine take_loads_of
 

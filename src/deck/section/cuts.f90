@@ -122,9 +122,12 @@ contains
 
       type(card_type) :: card
       real(wp) :: low, high
+      !> Body that these are of
+      integer :: seen
       integer :: element, k
 
       card = cards_of(deck, keyword_cuts)
+      seen = -1
       do k = 1, size(deck%model%cuts)
          associate (cut => deck%model%cuts(k))
             card%entry = cut%card
@@ -133,16 +136,19 @@ contains
                call field_fault(card, field_body, 'body '//to_text(cut%body)//' has no elements')
                cycle
             end if
-            low = huge(low)
-            high = -huge(high)
-            do element = 1, size(mesh%element_body)
-               if (cut%body > 0 .and. mesh%element_body(element) /= cut%body) cycle
-               associate (z => mesh%coordinates(2, &
-                  mesh%element_nodes(:mesh%element_size(element), element)))
-                  low = min(low, minval(z))
-                  high = max(high, maxval(z))
-               end associate
-            end do
+            if (cut%body /= seen) then
+               low = huge(low)
+               high = -huge(high)
+               do element = 1, size(mesh%element_body)
+                  if (cut%body > 0 .and. mesh%element_body(element) /= cut%body) cycle
+                  associate (z => mesh%coordinates(2, &
+                     mesh%element_nodes(:mesh%element_size(element), element)))
+                     low = min(low, minval(z))
+                     high = max(high, maxval(z))
+                  end associate
+               end do
+               seen = cut%body
+            end if
             if (cut%z >= low .and. cut%z <= high) cycle
             call field_fault(card, field_of(k), 'the cut at z = '//to_text(cut%z)//' misses '// &
                              trim(merge('the body  ', 'all bodies', cut%body > 0)), &

@@ -8,6 +8,7 @@
 !> A file of this format that is not closed cannot be opened: it must get its name when it is complete.
 module axijoint_output_file_hdf5_storage
    use axijoint_base_system, only : last_error
+   use axijoint_output_file_hdf5_chunks, only : chunk_extent, small_array
    use hdf5, only : hid_t, hsize_t, size_t, h5pcreate_f, h5pclose_f, h5p_file_access_f, h5p_file_create_f, &
       h5p_group_create_f, h5p_dataset_create_f, h5pset_libver_bounds_f, h5f_libver_v110_f, &
       h5pset_link_phase_change_f, h5pset_attr_phase_change_f, h5pset_obj_track_times_f, &
@@ -18,10 +19,8 @@ module axijoint_output_file_hdf5_storage
 
    !> A handle that is not open
    integer(hid_t), parameter :: no_handle = -1_hid_t
-   !> Values of a chunk at most; about a megabyte of reals
-   integer(hsize_t), parameter :: chunk_values = 131072_hsize_t
-   !> Bytes of an array in a header at most, and of a text, which cannot be cut into chunks; the format allows 64 KiB
-   integer(hsize_t), parameter :: small_array = 16384_hsize_t, small_text = 65000_hsize_t
+   !> Bytes of a text, which cannot be cut into chunks, in a header at most; the format allows 64 KiB
+   integer(hsize_t), parameter :: small_text = 65000_hsize_t
    !> Links and attributes of one object that stand in its header; more of them get an index
    integer, parameter :: most_in_header = 1000
    !> Links of a group that its header is made for, and bytes of their names: more of them continue elsewhere
@@ -227,32 +226,5 @@ contains
 
       if (properties /= self%small) call close_properties(properties, failure)
    end subroutine release
-
-   !> Extents of a chunk: whole leading indices up to `chunk_values` values, an index that does not fit cut into parts as
-   !> equal as may be, as each chunk takes its room whole
-   pure function chunk_extent(extent) result(chunk)
-      !> Extents of the array, all positive
-      integer(hsize_t), intent(in) :: extent(:)
-      !> Extents of a chunk
-      integer(hsize_t) :: chunk(size(extent))
-
-      integer(hsize_t) :: room, n_parts
-      integer :: i
-
-      room = chunk_values
-      do i = 1, size(extent)
-         n_parts = parts(extent(i), max(1_hsize_t, room))
-         chunk(i) = parts(extent(i), n_parts)
-         room = room/chunk(i)
-      end do
-   end function chunk_extent
-
-   !> Parts of a length at most that a whole is cut into
-   pure integer(hsize_t) function parts(whole, longest)
-      !> The whole, and the longest part
-      integer(hsize_t), intent(in) :: whole, longest
-
-      parts = (whole + longest - 1)/longest
-   end function parts
 
 end module axijoint_output_file_hdf5_storage

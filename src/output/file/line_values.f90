@@ -27,22 +27,7 @@ contains
       !> The displacements, shape (3, points)
       real(wp) :: total(3, size(line%points))
 
-      type(circle_type) :: circle
-      real(wp) :: shape(max_element_nodes), amplitude(3, size(results%modes))
-      integer :: k, i, n
-
-      circle = new_circle(results%modes, angle)
-      do k = 1, size(line%points)
-         associate (point => line%points(k))
-            call shape_at(model, point, shape, n)
-            amplitude = 0.0_wp
-            do i = 1, n
-               amplitude = amplitude &
-                  + shape(i)*results%displacement(:, model%mesh%element_nodes(i, point%element), :)
-            end do
-         end associate
-         total(:, k) = total_displacement(amplitude, circle)
-      end do
+      total = reshape(displacements_at(model, results, line, [angle]), shape(total))
    end function line_displacement
 
    !> Total stresses at the points of a line: the stresses at the nodes, within the
@@ -59,22 +44,7 @@ contains
       !> The stresses, shape (6, points)
       real(wp) :: total(6, size(line%points))
 
-      type(circle_type) :: circle
-      real(wp) :: shape(max_element_nodes), amplitude(6, size(results%modes))
-      integer :: k, i, n
-
-      circle = new_circle(results%modes, angle)
-      do k = 1, size(line%points)
-         associate (point => line%points(k))
-            call shape_at(model, point, shape, n)
-            amplitude = 0.0_wp
-            do i = 1, n
-               amplitude = amplitude &
-                  + shape(i)*results%nodal%amplitude(:, results%nodal%value_of(i, point%element), :)
-            end do
-         end associate
-         total(:, k) = total_stress(amplitude, circle)
-      end do
+      total = reshape(stresses_at(model, results, line, [angle]), shape(total))
    end function line_stress
 
    !> Total displacements at all angles of a line
@@ -86,13 +56,9 @@ contains
       !> The line
       type(line_type), intent(in) :: line
       !> The displacements, shape (3, points, angles)
-      real(wp) :: total(3, size(line%points), size(line%angles))
+      real(wp), allocatable :: total(:, :, :)
 
-      integer :: i
-
-      do i = 1, size(line%angles)
-         total(:, :, i) = line_displacement(model, results, line, line%angles(i))
-      end do
+      total = displacements_at(model, results, line, line%angles)
    end function line_displacements
 
    !> Total stresses at all angles of a line
@@ -104,14 +70,78 @@ contains
       !> The line
       type(line_type), intent(in) :: line
       !> The stresses, shape (6, points, angles)
-      real(wp) :: total(6, size(line%points), size(line%angles))
+      real(wp), allocatable :: total(:, :, :)
 
-      integer :: i
-
-      do i = 1, size(line%angles)
-         total(:, :, i) = line_stress(model, results, line, line%angles(i))
-      end do
+      total = stresses_at(model, results, line, line%angles)
    end function line_stresses
+
+   !> Total displacements at some angles
+   pure function displacements_at(model, results, line, angles) result(total)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Results
+      class(fields_type), intent(in) :: results
+      !> The line
+      type(line_type), intent(in) :: line
+      !> theta [radian]
+      real(wp), intent(in) :: angles(:)
+      !> The displacements, shape (3, points, angles)
+      real(wp), allocatable :: total(:, :, :)
+
+      type(circle_type) :: circles(size(angles))
+      real(wp) :: shape(max_element_nodes), amplitude(3, size(results%modes))
+      integer :: i, k, n
+
+      circles = [(new_circle(results%modes, angles(i)), i=1, size(angles))]
+      allocate (total(3, size(line%points), size(angles)))
+      do k = 1, size(line%points)
+         associate (point => line%points(k))
+            call shape_at(model, point, shape, n)
+            amplitude = 0.0_wp
+            do i = 1, n
+               amplitude = amplitude &
+                  + shape(i)*results%displacement(:, model%mesh%element_nodes(i, point%element), :)
+            end do
+         end associate
+         do i = 1, size(angles)
+            total(:, k, i) = total_displacement(amplitude, circles(i))
+         end do
+      end do
+   end function displacements_at
+
+   !> Total stresses at some angles
+   pure function stresses_at(model, results, line, angles) result(total)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Results
+      class(fields_type), intent(in) :: results
+      !> The line
+      type(line_type), intent(in) :: line
+      !> theta [radian]
+      real(wp), intent(in) :: angles(:)
+      !> The stresses, shape (6, points, angles)
+      real(wp), allocatable :: total(:, :, :)
+
+      type(circle_type) :: circles(size(angles))
+      real(wp) :: shape(max_element_nodes), amplitude(6, size(results%modes))
+      integer :: i, k, n
+
+      circles = [(new_circle(results%modes, angles(i)), i=1, size(angles))]
+      allocate (total(6, size(line%points), size(angles)))
+      do k = 1, size(line%points)
+         associate (point => line%points(k))
+            call shape_at(model, point, shape, n)
+            amplitude = 0.0_wp
+            do i = 1, n
+               amplitude = amplitude &
+                  + shape(i)*results%nodal%amplitude(:, results%nodal%value_of(i, point%element), :)
+            end do
+         end associate
+         do i = 1, size(angles)
+            total(:, k, i) = total_stress(amplitude, circles(i))
+         end do
+      end do
+   end function stresses_at
 
    !> Shape functions at a point
    pure subroutine shape_at(model, point, shape, n)
