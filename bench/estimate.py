@@ -22,7 +22,7 @@ MEGABYTE = 2.0**20
 GROUPS = {"start, write": ("beginning", "files", "lines", "array_bytes", "swept_values", "rows"),
           "read": ("reading",), "assemble": ("ordering", "shape_products", "fine_nodes"), "factor": ("factoring", "formed_entries"),
           "solve": ("inverse", "block_entries", "solved_entries", "node_modes", "laws", "sums", "flexibility",
-                    "fine_blocks", "stress_modes", "row_stresses")}
+                    "fine_blocks", "stress_modes", "row_stresses", "cut_states", "line_values")}
 # The processor clocks of the listing that these are; what is left of a run is the first
 CLOCKS = {"read": ("read",), "assemble": ("assemble",), "factor": ("factor",), "solve": ("joints", "recover")}
 # Processor seconds and peak memory [KiB] of a command

@@ -1,6 +1,6 @@
 !> `axijoint estimate`: what decks would cost
 module axijoint_command_estimate
-   use, intrinsic :: iso_fortran_env, only : output_unit
+   use, intrinsic :: iso_fortran_env, only : error_unit, output_unit
    use axijoint_analysis_core_structure, only : structure_type
    use axijoint_base_error, only : error_type, fatal_error, exit_ok, exit_deck, exit_memory
    use axijoint_base_kinds, only : wp
@@ -15,7 +15,7 @@ module axijoint_command_estimate
    use axijoint_estimate_machine, only : machine_type, this_machine
    use axijoint_estimate_study, only : study_size_type, forecast_study
    use axijoint_estimate_terms, only : reading
-   use axijoint_job_job, only : job_type
+   use axijoint_job_job, only : job_type, deck_name
    use axijoint_job_read, only : read_job
    use axijoint_model_model, only : model_type
    use axijoint_study_open, only : open_study, deck_beside
@@ -140,9 +140,27 @@ contains
                               command%iterations, command%options%estimated)
       call add_needs(deck, forecast, machine, needs)
       call show(command, deck_text(deck, job%model, structure), job%model, forecast, machine)
-      if (allocated(no_room) .and. .not. (command%counts .or. command%job_lines)) &
-         write (output_unit, '(a)') '  a run here and now would end with exit code '//to_text(exit_memory)//':', no_room%message
+      if (allocated(no_room) .and. .not. command%counts) call tell_no_room(deck, command, no_room)
    end subroutine estimate_deck
+
+   !> Say that a run here and now would end for want of memory
+   subroutine tell_no_room(deck, command, no_room)
+      !> The deck
+      character(len=*), intent(in) :: deck
+      !> Options
+      type(command_type), intent(in) :: command
+      !> How it would end
+      type(error_type), intent(in) :: no_room
+
+      character(len=:), allocatable :: text
+
+      text = 'a run here and now would end with exit code '//to_text(exit_memory)//':'
+      if (command%job_lines) then  ! what is printed becomes a script, for several decks maybe
+         write (error_unit, '(a)') deck_name(deck)//': '//text, no_room%message
+      else
+         write (output_unit, '(a)') '  '//text, no_room%message
+      end if
+   end subroutine tell_no_room
 
    !> Print a forecast as it is wanted
    subroutine show(command, heading, model, forecast, machine)

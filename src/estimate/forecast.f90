@@ -12,7 +12,7 @@ module axijoint_estimate_forecast
    use axijoint_estimate_peak, only : peak_bytes
    use axijoint_estimate_terms, only : terms, n_terms, n_phases, common, products, beginning, &
       reading, ordering
-   use axijoint_estimate_volume, only : volume_work, volume_bytes
+   use axijoint_estimate_volume, only : add_volume
    use axijoint_estimate_work, only : structure_work, state_work
    use axijoint_model_model, only : model_type
    implicit none
@@ -100,19 +100,20 @@ contains
       !> The forecast
       type(forecast_type) :: forecast
 
-      real(wp) :: n
+      real(wp) :: n, of_one(n_terms)
       integer :: k
 
       n = size(model%combinations)
       forecast%iterations = n_iterations(model, each)
+      of_one = state_work(model, structure, forecast%iterations/n, estimated, run=.true.)
+      call add_volume(model, source, structure%modes, structure%joint_points, forecast%iterations/n, estimated, of_one, &
+         forecast%disk)
+      forecast%disk = n*forecast%disk
       associate (work => forecast%work)
-         work = structure_work(model, structure, machine%product_rate) &
-            + n*(state_work(model, structure, forecast%iterations/n, estimated, run=.true.) &
-                 + volume_work(model, source, structure%modes, structure%joint_points))
+         work = structure_work(model, structure, machine%product_rate) + n*of_one
          work(beginning) = 1.0_wp
          work(reading) = timer%cpu_seconds(phase_read)
          work(ordering) = timer%cpu_seconds(phase_assemble)
-         forecast%disk = volume_bytes(work, max(1, size(model%increments)))
       end associate
       associate (equations => structure%equations)
          forecast%n_workers = equations%n_workers

@@ -11,14 +11,17 @@ module axijoint_estimate_peak
    use axijoint_base_error, only : error_type
    use axijoint_base_kinds, only : i8
    use axijoint_base_progress, only : progress_type
+   use axijoint_estimate_arrays, only : series_bytes
    use axijoint_estimate_volume, only : swept_numbers
-   use axijoint_model_mesh, only : n_joints
+   use axijoint_model_mesh, only : n_elements, n_joints
    use axijoint_model_model, only : model_type, can_yield, bodies_yield
    use axijoint_model_modes, only : highest_loaded
    implicit none
    private
    public :: peak_bytes
 
+   !> What a cut takes besides its elements [byte]; measured
+   integer(i8), parameter :: plane_bytes = 3000_i8
    !> What iterations of joints load of the program; what the libraries of the output add for swept bodies and
    !> joints, parts of which are in memory, and for each number of these bodies [byte]; measured
    integer(i8), parameter :: yielding_bytes = 300000_i8, swept_bytes = 4500000_i8, &
@@ -44,12 +47,37 @@ contains
                                  structure%joint_points, structure%estimated)
          bytes = at_start + program_bytes + equations%solver%library_bytes + others%mesh + &
             standing_bytes(equations) + parts_bytes(equations) &
-            + kept_bytes(equations) + others%joints + others%bodies + others%fine &
-            + max(solving_bytes(structure, others), others%loads + others%stresses &
+            + kept_bytes(equations) + others%joints + others%bodies + others%fine + cut_bytes(model) &
+            + nint(series_bytes(model, size(structure%modes)), i8) &
+            + max(solving_bytes(structure, others), others%loads + others%stresses + line_bytes(model) &
                   + max(sweep_bytes(model, structure), judging_bytes(model)))
       end associate
       if (can_yield(model)) bytes = bytes + yielding_bytes
    end function peak_bytes
+
+   !> What the cuts hold: points of their sections, and the elements that they pass through with what loads leave in these, on a
+   !> mesh about as high as wide
+   pure integer(i8) function cut_bytes(model) result(bytes)
+      !> The job
+      type(model_type), intent(in) :: model
+
+      associate (crossed => nint(sqrt(real(n_elements(model%mesh)))))
+         bytes = size(model%cuts)*(plane_bytes + crossed*(8_i8 + 48_i8*size(model%body_loads)))
+      end associate
+   end function cut_bytes
+
+   !> Values on the sections of an increment, which are there twice
+   pure integer(i8) function line_bytes(model) result(bytes)
+      !> The job
+      type(model_type), intent(in) :: model
+
+      integer :: k
+
+      bytes = 0
+      do k = 1, size(model%lines)
+         bytes = max(bytes, 2*48_i8*size(model%lines(k)%points)*size(model%lines(k)%angles))
+      end do
+   end function line_bytes
 
    !> What comes and goes while the equations are solved
    pure integer(i8) function solving_bytes(structure, others) result(bytes)

@@ -10,7 +10,7 @@ module axijoint_estimate_terms
    public :: beginning, reading, ordering, shape_products, fine_nodes, factoring, inverse, &
       block_entries, solved_entries, node_modes, laws, sums, flexibility, fine_blocks, &
       stress_modes, files, lines, array_bytes, swept_values, row_stresses, formed_entries, rows, &
-      body_stresses, body_laws
+      body_stresses, body_laws, cut_states, line_values
 
    !> Parts of a run, in their order
    integer, parameter :: n_phases = 8
@@ -40,8 +40,9 @@ module axijoint_estimate_terms
       fine_nodes = 5, factoring = 6, inverse = 7, block_entries = 8, solved_entries = 9, &
       node_modes = 10, laws = 11, sums = 12, flexibility = 13, fine_blocks = 14, &
       stress_modes = 15, files = 16, lines = 17, array_bytes = 18, swept_values = 19, &
-      row_stresses = 20, formed_entries = 21, rows = 22, body_stresses = 23, body_laws = 24
-   integer, parameter :: n_terms = 24
+      row_stresses = 20, formed_entries = 21, rows = 22, body_stresses = 23, body_laws = 24, &
+      cut_states = 25, line_values = 26
+   integer, parameter :: n_terms = 26
 
    !> All of them, at the places above
    type(term_type), parameter :: terms(n_terms) = [ &
@@ -92,6 +93,10 @@ module axijoint_estimate_terms
       term_type('body_stresses', phase_joints, common, .true., &
                 'stress and forces of bodies that yield', 5.4e-8_wp), &
       term_type('body_laws', phase_joints, common, .true., &
-                'criteria at points and planes of bodies', 5.4e-7_wp)]
+                'criteria at points and planes of bodies', 5.4e-7_wp), &
+      term_type('cut_states', phase_recover, common, .false., &
+                'resultants and motions at cuts', 1.25e-5_wp), &
+      term_type('line_values', phase_recover, common, .false., &
+                'displacements and stresses on sections, mode by mode', 1.1e-7_wp)]
 
 end module axijoint_estimate_terms

@@ -188,6 +188,10 @@ def memory_too_small(program, folder):
     for options, told in ((('--memory', '40'), True), ((), False), (('--memory', '40', '--counts'), False)):
         ran = program.run('estimate', deck, *options)
         faults += ran.ended_with(0) + ([] if (words in ran.out) == told else [f'{options}: {ran.out}'])
+    # beside the lines of a script
+    for options, told in ((('--memory', '40', '--slurm'), True), (('--slurm',), False)):
+        ran = program.run('estimate', deck, *options)
+        faults += ran.ended_with(0) + ([] if (words in ran.err) == told and words not in ran.out else [f'{options}: {ran.out}{ran.err}'])
     return faults
 
 

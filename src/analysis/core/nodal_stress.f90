@@ -12,7 +12,7 @@ module axijoint_analysis_core_nodal_stress
    use axijoint_model_model, only : model_type, on_axis
    implicit none
    private
-   public :: smooth_stress, pole_stress
+   public :: smooth_stress, pole_stress, number_values
 
 contains
 
