@@ -1,5 +1,6 @@
 !> From the user's numbers of things to their indices
 module axijoint_base_number_map
+   use axijoint_base_kinds, only : i8
    implicit none
    private
    public :: number_map_type, find_number, insert_number
@@ -60,12 +61,12 @@ contains
       !> The number
       integer, intent(in) :: number
 
-      integer :: mixed
+      !> 2^32 over the golden ratio: multiples of it spread evenly, those of consecutive numbers and of numbers far apart
+      integer(i8), parameter :: golden = 2654435769_i8, low = 4294967295_i8
+      integer :: bits
 
-      ! Consecutive numbers fall on consecutive places; the shift spreads
-      ! numbers that differ by a multiple of the size.
-      mixed = ieor(number, ishft(number, -15))
-      place = iand(mixed, size(numbers) - 1) + 1
+      bits = trailz(size(numbers))
+      place = int(ishft(iand(golden*iand(number, huge(number)), low), bits - 32)) + 1
       do while (numbers(place) /= free .and. numbers(place) /= number)
          place = iand(place, size(numbers) - 1) + 1
       end do

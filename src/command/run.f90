@@ -103,10 +103,10 @@ contains
    end subroutine run_in_order
 
 
-   !> What a deck before has taken is no memory of the next one
+   !> What a deck before has taken, and given back, is no memory of the next one
    subroutine begin_anew()
       !> Less is kept for the next one, which is faster so [MiB]
-      real(wp), parameter :: worth_giving_back = 256.0_wp
+      real(wp), parameter :: worth_giving_back = 128.0_wp
 
       if (peak_memory_mb() > worth_giving_back) call give_back_memory()
       call forget_peak_memory()

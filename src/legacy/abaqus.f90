@@ -120,6 +120,10 @@ contains
       type(line_type) :: data
 
       if (file%n_steps < merge(1, 2, line%keyword == 'STEP')) call check_parameters(cards, line, sketch)
+      if (file%n_steps > 1 .and. acts_from_its_step(line%keyword)) then
+         call leave_data(cards, line, at, sketch)
+         return
+      end if
       select case (line%keyword)
       case ('HEADING')
          call read_heading(cards, at, sketch)
@@ -133,6 +137,9 @@ contains
          call assign_material(cards, line, file%names, file%mesh)
       case ('SURFACE INTERACTION')
          call open_interaction(line, file%contact)
+      case ('CHANGE FRICTION')  ! what follows is none of an interaction
+         file%contact%last = 0
+         call leave_data(cards, line, at, sketch)
       case ('FRICTION')
          call read_friction(cards, line, at, file%contact, sketch)
       case ('SURFACE BEHAVIOR')
@@ -165,6 +172,15 @@ contains
          call leave_data(cards, line, at, sketch)
       end select
    end subroutine read_keyword
+
+   !> Whether a keyword in a step counts from that on, so that those of later steps are none of the first
+   pure logical function acts_from_its_step(keyword) result(acts)
+      !> The keyword
+      character(len=*), intent(in) :: keyword
+
+      acts = any(keyword == [character(len=16) :: 'BOUNDARY', 'CLOAD', 'DLOAD', 'DSLOAD', 'TEMPERATURE', 'CONTACT PAIR', &
+         'FRICTION', 'SURFACE BEHAVIOR', 'TIE'])
+   end function acts_from_its_step
 
    !> *NSET, *ELSET, *SURFACE
    subroutine read_group(cards, line, at, mesh, sketch)
@@ -207,9 +223,7 @@ contains
       !> The new deck
       type(sketch_type), intent(inout) :: sketch
 
-      if (file%n_steps > 1) then
-         call leave_data(cards, line, at, sketch)
-      else if (line%keyword == 'BOUNDARY') then
+      if (line%keyword == 'BOUNDARY') then
          call renew_boundary(cards, line, file%n_steps > 0, file%n_boundaries, file%boundary)
          call add_boundary(cards, line, at, file%mesh, file%boundary, sketch)
       else if (line%keyword == 'TEMPERATURE') then

@@ -5,7 +5,7 @@ module axijoint_legacy_abaqus_boundary
    use axijoint_deck_text_diagnostics, only : add_warning
    use axijoint_legacy_abaqus_lines, only : line_type, is_data, field_text, integer_of, real_of, fault_of, &
       parameter_of, has_parameter
-   use axijoint_legacy_abaqus_mesh, only : abaqus_type, members, index_of
+   use axijoint_legacy_abaqus_mesh, only : abaqus_type, members, index_of, root_of
    use axijoint_legacy_abaqus_parameters, only : reserve
    use axijoint_legacy_cards, only : cards_type
    use axijoint_legacy_list, only : list_type
@@ -99,6 +99,10 @@ contains
          do k = 1, list%n
             node = index_of(cards, line, mesh, list%value(k))
             if (node == 0) exit
+            if (.not. mesh%used(node)) then
+               call leave_out(sketch, line%card, '*'//keyword%keyword//' of nodes that no element has')
+               cycle
+            end if
             where (held) boundary%value(:, node) = value
             boundary%held(:, node) = boundary%held(:, node) .or. held
          end do
@@ -150,17 +154,24 @@ contains
    subroutine put_boundary(mesh, boundary, sketch)
       !> The mesh
       type(abaqus_type), intent(in) :: mesh
-      !> What is given
-      type(boundary_type), intent(in) :: boundary
+      !> What is given; that of tied nodes becomes that of those that they are tied to
+      type(boundary_type), intent(inout) :: boundary
       !> Takes the cards
       type(sketch_type), intent(inout) :: sketch
 
       character(len=:), allocatable :: u, v
       logical :: moved(2)
-      integer :: k
+      integer :: k, root
 
+      do k = 1, mesh%n_nodes  ! what was given of nodes before they were tied
+         root = root_of(mesh, k)
+         if (root == k) cycle
+         where (boundary%held(:, k)) boundary%value(:, root) = boundary%value(:, k)
+         boundary%held(:, root) = boundary%held(:, root) .or. boundary%held(:, k)
+         boundary%held(:, k) = .false.
+      end do
       do k = 1, mesh%n_nodes
-         if (.not. (any(boundary%held(:, k)) .and. mesh%used(k))) cycle
+         if (.not. any(boundary%held(:, k))) cycle
          moved = boundary%held(:, k) .and. abs(boundary%value(:, k)) > 0.0_wp
          if (any(boundary%held(:, k) .and. .not. moved)) call put(sketch%parts(part_restraints), to_text(mesh%node(k))//', '// &
             code(1)//code(2)//'0')

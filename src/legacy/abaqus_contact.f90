@@ -4,9 +4,12 @@ module axijoint_legacy_abaqus_contact
    use axijoint_base_kinds, only : wp, degree
    use axijoint_base_number_map, only : find_number
    use axijoint_base_text, only : to_text
+   use axijoint_deck_mesh_places, only : point_tree_type, new_point_tree, points_near
    use axijoint_deck_text_diagnostics, only : add_warning
-   use axijoint_legacy_abaqus_lines, only : line_type, is_data, parameter_of, has_parameter, field_text, real_of
-   use axijoint_legacy_abaqus_mesh, only : abaqus_type, find_surface, side_nodes, tie, number_at, root_of
+   use axijoint_fe_shape, only : n_corners
+   use axijoint_legacy_abaqus_lines, only : line_type, is_data, parameter_of, has_parameter, real_of, fault_of
+   use axijoint_legacy_abaqus_mesh, only : abaqus_type, find_surface, side_nodes, n_side_nodes, tie, find_inside, &
+      number_at, root_of, most_sides
    use axijoint_legacy_cards, only : cards_type
    use axijoint_legacy_list, only : set_type, open_set, find_set
    use axijoint_legacy_sketch, only : sketch_type, leave_out, part_laws, part_law_details, part_joints
@@ -18,9 +21,11 @@ module axijoint_legacy_abaqus_contact
    !> Distances of nodes of two sides, in lengths of the side: in contact at one place; tied at one place, as those are that Abaqus
    !> moves there; apart by a gap
    real(wp), parameter :: same = 1.0e-6_wp, moved_there = 1.0e-3_wp, apart = 0.1_wp
-   !> Stiffness k h/E of contact that has none of its own: what presses the sides moves them into each other by a hundredth of what
-   !> it shortens an element as long
+   !> Stiffness of contact that has none of its own, k h/E with the least h of elements, along the contact or across: what presses
+   !> the sides moves them into each other by a hundredth of what it shortens an element there
    real(wp), parameter :: hard = 100.0_wp
+   !> Candidates for a side to lie on
+   integer, parameter :: most_near = 16
 
    !> How two surfaces act on each other
    type :: interaction_type
@@ -30,8 +35,11 @@ module axijoint_legacy_abaqus_contact
 
    !> Two surfaces in contact
    type :: pair_type
-      !> Surfaces and interaction (indices; 0: no friction), and the card that says so
-      integer :: surfaces(2) = 0, interaction = 0, card = 0
+      !> Surfaces (indices), and the line that says so
+      integer :: surfaces(2) = 0
+      type(line_type) :: line
+      !> Name of the interaction
+      character(len=:), allocatable :: interaction
    end type pair_type
 
    !> What is read
@@ -43,6 +51,14 @@ module axijoint_legacy_abaqus_contact
       !> Pairs in contact
       type(pair_type), allocatable :: pairs(:)
    end type contact_type
+
+   !> Two sides that lie on each other
+   type :: match_type
+      !> Elements (indices) and sides of the first and of the second surface
+      integer :: element(2) = 0, side(2) = 0
+      !> Whether the second side runs as the first one does
+      logical :: alike = .false.
+   end type match_type
 
 contains
 
@@ -129,14 +145,12 @@ contains
       !> Takes them
       type(contact_type), intent(inout) :: contact
 
-      type(line_type) :: line
       type(pair_type) :: pair
 
       if (.not. allocated(contact%pairs)) allocate (contact%pairs(0))
-      do while (is_data(cards, at, line))
-         pair%surfaces = [find_surface(cards, line, 1, mesh), find_surface(cards, line, 2, mesh)]
-         pair%interaction = find_set(contact%names, parameter_of(keyword, 'INTERACTION'))
-         pair%card = line%card
+      pair%interaction = parameter_of(keyword, 'INTERACTION')
+      do while (is_data(cards, at, pair%line))
+         pair%surfaces = [find_surface(cards, pair%line, 1, mesh), find_surface(cards, pair%line, 2, mesh)]
          if (all(pair%surfaces > 0)) contact%pairs = [contact%pairs, pair]
       end do
    end subroutine read_pairs
@@ -153,85 +167,182 @@ contains
       type(sketch_type), intent(inout) :: sketch
 
       type(line_type) :: line
-      integer, allocatable :: sides(:, :)
+      type(match_type), allocatable :: matches(:)
+      integer, allocatable :: nodes(:, :)
       integer :: surfaces(2), k, i
 
       do while (is_data(cards, at, line))
          surfaces = [find_surface(cards, line, 1, mesh), find_surface(cards, line, 2, mesh)]
          if (any(surfaces == 0)) cycle
-         call match_sides(mesh, surfaces, moved_there, sides)
-         call tell_unmatched(cards, line%card, '*TIE', mesh, surfaces, sides, sketch)
-         do k = 1, size(sides, 2)
-            do i = 1, 3
-               if (sides(i, k) > 0) call tie(mesh, find_number(mesh%node_map, sides(i, k)), &
-                  find_number(mesh%node_map, sides(3 + i, k)))
+         call match_sides(mesh, surfaces, moved_there, matches)
+         call tell_unmatched(cards, line%card, '*TIE', mesh, surfaces, size(matches), sketch)
+         do k = 1, size(matches)
+            nodes = nodes_of(mesh, matches(k))
+            do i = 1, size(nodes, 1)
+               call tie(mesh, nodes(i, 1), nodes(i, 2))
             end do
          end do
-         if (size(sides, 2) == mesh%surfaces(surfaces(1))%elements%n) mesh%surfaces(surfaces)%joined = .true.
       end do
+      call find_inside(mesh)
    end subroutine read_ties
 
    !> Sides of one surface and those of another that lie on them
-   subroutine match_sides(mesh, surfaces, distance, sides, farthest)
+   subroutine match_sides(mesh, surfaces, distance, matches, farthest)
       !> The mesh
       type(abaqus_type), intent(in) :: mesh
       !> The surfaces
       integer, intent(in) :: surfaces(2)
       !> Distance of nodes at one place, in lengths of the side
       real(wp), intent(in) :: distance
-      !> Numbers of nodes, shape (6, sides): two corners of a side of the first surface in the order of its element and the node
-      !> between them, 0 if there is none, then those of the second at their places
-      integer, allocatable, intent(out) :: sides(:, :)
+      !> Takes the pairs of sides
+      type(match_type), allocatable, intent(out) :: matches(:)
       !> Largest distance of their nodes
       real(wp), intent(out), optional :: farthest
 
-      integer, allocatable :: first(:), second(:)
-      integer :: i, j, k, six(6)
+      type(point_tree_type) :: tree
+      type(match_type) :: match
+      real(wp) :: length, gap
+      integer :: i, k, n, n_near, near(most_near)
 
-      allocate (sides(6, 0))
-      if (present(farthest)) farthest = 0.0_wp
       associate (a => mesh%surfaces(surfaces(1)), b => mesh%surfaces(surfaces(2)))
+         allocate (matches(a%elements%n))
+         n = 0
+         if (present(farthest)) farthest = 0.0_wp
+         tree = new_point_tree(reshape([(middle(b%elements%value(k), b%sides%value(k)), k=1, b%elements%n)], [2, b%elements%n]))
          do i = 1, a%elements%n
-            first = side_nodes(mesh, a%elements%value(i), a%sides%value(i))
-            do k = 1, b%elements%n
-               second = side_nodes(mesh, b%elements%value(k), b%sides%value(k))
-               if (size(second) /= size(first)) cycle
-               if (.not. near(first(1), second(1))) second(:2) = second([2, 1])
-               if (.not. all([(near(first(j), second(j)), j=1, size(first))])) cycle
-               if (present(farthest)) farthest = max(farthest, maxval([(distance_of(mesh, first(j), second(j)), j=1, size(first))]))
-               six = 0
-               six(:size(first)) = first
-               six(4:3 + size(second)) = second
-               sides = reshape([sides, six], [6, size(sides, 2) + 1])
+            match%element(1) = a%elements%value(i)
+            match%side(1) = a%sides%value(i)
+            length = length_of(mesh, match%element(1), match%side(1))
+            call points_near(tree, middle(match%element(1), match%side(1)), distance*length, near, n_near)
+            do k = 1, n_near
+               match%element(2) = b%elements%value(near(k))
+               match%side(2) = b%sides%value(near(k))
+               call compare(mesh, match, gap)
+               if (gap > distance*length) cycle
+               n = n + 1
+               matches(n) = match
+               if (present(farthest)) farthest = max(farthest, gap)
                exit
             end do
          end do
       end associate
+      matches = matches(:n)
 
    contains
 
-      !> Whether two nodes are at one place
-      logical function near(p, q)
-         !> Their numbers
-         integer, intent(in) :: p, q
+      !> Middle between the corners of a side
+      function middle(element, side)
+         !> They
+         integer, intent(in) :: element, side
+         real(wp) :: middle(2)
 
-         near = distance_of(mesh, p, q) <= distance*distance_of(mesh, first(1), first(2))
-      end function near
+         integer, allocatable :: nodes(:)
+
+         nodes = indices_of(mesh, element, side)
+         middle = 0.5_wp*(mesh%position(:, nodes(1)) + mesh%position(:, nodes(2)))
+      end function middle
 
    end subroutine match_sides
 
-   !> Distance of two nodes
-   pure real(wp) function distance_of(mesh, p, q) result(distance)
+   !> How far nodes of two sides are from each other; as good as infinite if one has more than the other
+   subroutine compare(mesh, match, gap)
       !> The mesh
       type(abaqus_type), intent(in) :: mesh
-      !> Their numbers
-      integer, intent(in) :: p, q
+      !> The sides; takes whether they run alike
+      type(match_type), intent(inout) :: match
+      !> Largest distance of two of their nodes
+      real(wp), intent(out) :: gap
 
-      distance = norm2(mesh%position(:, find_number(mesh%node_map, p)) - mesh%position(:, find_number(mesh%node_map, q)))
-   end function distance_of
+      integer, allocatable :: first(:), second(:), nodes(:, :)
+      integer :: i
+
+      gap = huge(1.0_wp)
+      first = indices_of(mesh, match%element(1), match%side(1))
+      second = indices_of(mesh, match%element(2), match%side(2))
+      if (size(first) /= size(second)) return
+      match%alike = distance_of(first(1), second(1)) < distance_of(first(1), second(2))
+      nodes = nodes_of(mesh, match)
+      gap = maxval([(distance_of(nodes(i, 1), nodes(i, 2)), i=1, size(first))])
+
+   contains
+
+      !> Distance of two nodes
+      pure real(wp) function distance_of(p, q)
+         !> Their indices
+         integer, intent(in) :: p, q
+
+         distance_of = norm2(mesh%position(:, p) - mesh%position(:, q))
+      end function distance_of
+
+   end subroutine compare
+
+   !> Nodes of a side (indices): two corners in the order of the element, and the node between them of quadratic elements
+   function indices_of(mesh, element, side) result(nodes)
+      !> The mesh
+      type(abaqus_type), intent(in) :: mesh
+      !> Element (index) and side
+      integer, intent(in) :: element, side
+      !> Their indices
+      integer, allocatable :: nodes(:)
+
+      integer :: i
+
+      nodes = side_nodes(mesh, element, side)
+      do i = 1, size(nodes)
+         nodes(i) = find_number(mesh%node_map, nodes(i))
+      end do
+   end function indices_of
+
+   !> Nodes of two sides that lie on each other, in the order of the first one
+   function nodes_of(mesh, match) result(nodes)
+      !> The mesh
+      type(abaqus_type), intent(in) :: mesh
+      !> The sides
+      type(match_type), intent(in) :: match
+      !> Indices, shape (nodes, 2)
+      integer, allocatable :: nodes(:, :)
+
+      allocate (nodes(n_side_nodes(mesh, match%element(1)), 2))
+      nodes(:, 1) = indices_of(mesh, match%element(1), match%side(1))
+      nodes(:, 2) = indices_of(mesh, match%element(2), match%side(2))
+      if (.not. match%alike) nodes(:2, 2) = nodes([2, 1], 2)
+   end function nodes_of
+
+   !> Length of a side, between its corners
+   real(wp) function length_of(mesh, element, side) result(length)
+      !> The mesh
+      type(abaqus_type), intent(in) :: mesh
+      !> Element (index) and side
+      integer, intent(in) :: element, side
+
+      integer, allocatable :: nodes(:)
+
+      nodes = indices_of(mesh, element, side)
+      length = norm2(mesh%position(:, nodes(2)) - mesh%position(:, nodes(1)))
+   end function length_of
+
+   !> What an element has behind a side: the largest distance of a corner from it
+   real(wp) function depth_of(mesh, element, side) result(depth)
+      !> The mesh
+      type(abaqus_type), intent(in) :: mesh
+      !> Element (index) and side
+      integer, intent(in) :: element, side
+
+      real(wp) :: along(2), to(2)
+      integer, allocatable :: nodes(:)
+      integer :: i
+
+      nodes = indices_of(mesh, element, side)
+      along = mesh%position(:, nodes(2)) - mesh%position(:, nodes(1))
+      depth = 0.0_wp
+      do i = 1, n_corners(mesh%size(element))
+         to = mesh%position(:, find_number(mesh%node_map, number_at(mesh, mesh%nodes(i, element)))) - mesh%position(:, nodes(1))
+         depth = max(depth, abs(along(1)*to(2) - along(2)*to(1))/norm2(along))
+      end do
+   end function depth_of
 
    !> Say how many sides have no partner
-   subroutine tell_unmatched(cards, card, what, mesh, surfaces, sides, sketch)
+   subroutine tell_unmatched(cards, card, what, mesh, surfaces, n_matched, sketch)
       !> The file
       type(cards_type), intent(inout) :: cards
       !> The card of the pair
@@ -242,24 +353,24 @@ contains
       type(abaqus_type), intent(in) :: mesh
       !> The surfaces
       integer, intent(in) :: surfaces(2)
-      !> Sides that lie on each other
-      integer, intent(in) :: sides(:, :)
+      !> Sides of the first that lie on one of the second
+      integer, intent(in) :: n_matched
       !> Takes what is not translated
       type(sketch_type), intent(inout) :: sketch
 
-      integer, allocatable :: beside(:, :)
+      type(match_type), allocatable :: beside(:)
       real(wp) :: gap
       integer :: n
 
       n = mesh%surfaces(surfaces(1))%elements%n
-      if (size(sides, 2) == n) return
-      if (size(sides, 2) > 0) then
-         call add_warning(cards%diagnostics, card, 0, 0, what//': '//to_text(n - size(sides, 2))//' of the '//to_text(n)// &
+      if (n_matched == n) return
+      if (n_matched > 0) then
+         call add_warning(cards%diagnostics, card, 0, 0, what//': '//to_text(n - n_matched)//' of the '//to_text(n)// &
             ' sides of the first surface lie on none of the second, node on node, and are left free')
          return
       end if
       call match_sides(mesh, surfaces, apart, beside, gap)
-      if (size(beside, 2) > 0) then
+      if (size(beside) > 0) then
          call leave_out(sketch, card, what//' of surfaces that stand apart by up to '//to_text(gap)//': put the nodes of both '// &
             'at one place, and the gap on a card of LAWDETAILS')
       else
@@ -281,91 +392,105 @@ contains
       !> Takes the cards
       type(sketch_type), intent(inout) :: sketch
 
-      integer, allocatable :: sides(:, :)
-      integer :: k, i, n_joints
+      type(match_type), allocatable :: matches(:)
+      integer, allocatable :: body(:)
+      logical :: has_joint(most_sides, mesh%n_elements)
+      integer :: k, i, n_joints, interaction
 
       if (.not. allocated(contact%pairs)) return
+      call find_bodies(mesh, body)
+      has_joint = .false.
       n_joints = 0
       do k = 1, size(contact%pairs)
          associate (pair => contact%pairs(k))
-            call match_sides(mesh, pair%surfaces, same, sides)
-            call tell_unmatched(cards, pair%card, '*CONTACT PAIR', mesh, pair%surfaces, sides, sketch)
-            if (size(sides, 2) == 0) cycle
-            call put_on_each_other(sides, mesh)
-            mesh%surfaces(pair%surfaces)%joined = .true.
-            call put_law(mesh, contact, pair, k, sides, young, sketch)
+            interaction = find_set(contact%names, pair%interaction)
+            if (interaction == 0) then
+               call fault_of(cards, pair%line, 0, 'there is no interaction of the name "'//pair%interaction//'"', &
+                  'INTERACTION=, a name of *SURFACE INTERACTION')
+               cycle
+            end if
+            call match_sides(mesh, pair%surfaces, same, matches)
+            call tell_unmatched(cards, pair%line%card, '*CONTACT PAIR', mesh, pair%surfaces, size(matches), sketch)
+            if (any([(body(matches(i)%element(1)) == body(matches(i)%element(2)), i=1, size(matches))])) then
+               call leave_out(sketch, pair%line%card, '*CONTACT PAIR of parts that nodes or ties connect elsewhere: here '// &
+                  'they are one body, which has no joint in itself')
+               cycle
+            end if
+            mesh%surfaces(pair%surfaces)%in_contact = .true.
+            ! of two pairs of the same surfaces, or a side that a surface has twice, one is enough
+            matches = pack(matches, [(.not. (has_joint(matches(i)%side(1), matches(i)%element(1)) &
+                                             .or. has_joint(matches(i)%side(2), matches(i)%element(2))), i=1, size(matches))])
+            if (size(matches) == 0) cycle
+            call put_law(mesh, contact%interactions(interaction), k, matches, young, sketch)
             call put(sketch%parts(part_joints), '! '//mesh%surfaces(pair%surfaces(1))%name//' on '// &
                mesh%surfaces(pair%surfaces(2))%name)
-            do i = 1, size(sides, 2)
+            do i = 1, size(matches)
+               if (has_joint(matches(i)%side(1), matches(i)%element(1))) cycle
+               has_joint(matches(i)%side(1), matches(i)%element(1)) = .true.
+               has_joint(matches(i)%side(2), matches(i)%element(2)) = .true.
                n_joints = n_joints + 1
-               ! a side runs with its element on its left: backwards it has the other body there
-               associate (a => sides(:3, i), b => sides(4:, i))
-                  call put(sketch%parts(part_joints), to_text(n_joints)//', '//to_text(k)//integers([a(2), a(1), b(1), b(2), &
-                     pack([a(3), b(3)], [a(3), b(3)] > 0)]))
-               end associate
+               call put_joint(n_joints, k, nodes_of(mesh, matches(i)), mesh, sketch)
             end do
          end associate
       end do
    end subroutine put_contact
 
-   !> Put the nodes of the first sides exactly where those of the second are
-   subroutine put_on_each_other(sides, mesh)
-      !> Numbers of nodes of the sides
-      integer, intent(in) :: sides(:, :)
-      !> The mesh
+   !> Card of a joint. A side runs with its element on its left: backwards it has the other body there
+   subroutine put_joint(number, law, nodes, mesh, sketch)
+      !> Its number, and that of its law
+      integer, intent(in) :: number, law
+      !> Nodes of both sides (indices), shape (nodes, 2)
+      integer, intent(in) :: nodes(:, :)
+      !> The mesh; nodes of the first side are put exactly where those of the second are
       type(abaqus_type), intent(inout) :: mesh
-
-      integer :: k, i
-
-      do k = 1, size(sides, 2)
-         do i = 1, 3
-            if (sides(i, k) > 0) mesh%position(:, find_number(mesh%node_map, sides(i, k))) = &
-               mesh%position(:, find_number(mesh%node_map, sides(3 + i, k)))
-         end do
-      end do
-   end subroutine put_on_each_other
-
-   !> Law of a pair
-   subroutine put_law(mesh, contact, pair, number, sides, young, sketch)
-      !> The mesh
-      type(abaqus_type), intent(in) :: mesh
-      !> What is in contact
-      type(contact_type), intent(in) :: contact
-      !> The pair and the number of its law
-      type(pair_type), intent(in) :: pair
-      integer, intent(in) :: number
-      !> Its sides
-      integer, intent(in) :: sides(:, :)
-      !> Modulus of elasticity of each material
-      real(wp), intent(in) :: young(:)
       !> Takes the card
       type(sketch_type), intent(inout) :: sketch
 
-      type(interaction_type) :: interaction
-      real(wp) :: longest, softest, k
-      character(len=:), allocatable :: words
-      integer :: i, s, element
+      integer :: i
 
-      longest = 0.0_wp
-      do i = 1, size(sides, 2)
-         longest = max(longest, norm2(mesh%position(:, find_number(mesh%node_map, sides(1, i))) &
-                                      - mesh%position(:, find_number(mesh%node_map, sides(2, i)))))
+      do i = 1, size(nodes, 1)
+         mesh%position(:, nodes(i, 1)) = mesh%position(:, nodes(i, 2))
       end do
+      associate (a => nodes(:, 1), b => nodes(:, 2))
+         call put(sketch%parts(part_joints), to_text(number)//', '//to_text(law)//integers(mesh%node([a(2), a(1), b(1), b(2), &
+            a(3:), b(3:)])))
+      end associate
+   end subroutine put_joint
+
+   !> Law of a pair
+   subroutine put_law(mesh, interaction, number, matches, young, sketch)
+      !> The mesh
+      type(abaqus_type), intent(in) :: mesh
+      !> How its surfaces act on each other
+      type(interaction_type), intent(in) :: interaction
+      !> The number of the law
+      integer, intent(in) :: number
+      !> Sides that lie on each other
+      type(match_type), intent(in) :: matches(:)
+      !> Modulus of elasticity of each material
+      real(wp), intent(in) :: young(:)
+      !> Takes the cards
+      type(sketch_type), intent(inout) :: sketch
+
+      real(wp) :: least, softest, k
+      character(len=:), allocatable :: words
+      integer :: i, s
+
+      least = huge(1.0_wp)
       softest = huge(1.0_wp)
-      do s = 1, 2
-         associate (elements => mesh%surfaces(pair%surfaces(s))%elements)
-            do i = 1, elements%n
-               element = elements%value(i)
+      do i = 1, size(matches)
+         do s = 1, 2
+            associate (element => matches(i)%element(s), side => matches(i)%side(s))
+               least = min(least, length_of(mesh, element, side), depth_of(mesh, element, side))
                if (mesh%material(element) > 0) softest = min(softest, young(mesh%material(element)))
-            end do
-         end associate
+            end associate
+         end do
       end do
-      if (pair%interaction > 0) interaction = contact%interactions(pair%interaction)
       k = interaction%stiffness
       words = 'of *SURFACE BEHAVIOR'
       if (.not. k > 0.0_wp) then
-         k = hard*softest/longest
-         words = 'of hard contact: '//to_text(nint(hard))//' E over the longest side'
+         k = hard*softest/least
+         words = 'of hard contact: '//to_text(nint(hard))//' E over the least extent of an element there'
       end if
       call put(sketch%parts(part_laws), '! stiffness '//words)
       call put(sketch%parts(part_laws), to_text(number)//', '//exact(k)//', '//exact(k)//', '//exact(k)//', 0, '// &

@@ -5,7 +5,7 @@ module axijoint_legacy_abaqus_loads
    use axijoint_base_text, only : to_text, upper
    use axijoint_legacy_abaqus_bodies, only : body_loads_type, add_body_gravity, add_body_rotation
    use axijoint_legacy_abaqus_lines, only : line_type, is_data, field_text, name_in, integer_of, real_of, fault_of
-   use axijoint_legacy_abaqus_mesh, only : abaqus_type, members, side_nodes, is_side, index_of
+   use axijoint_legacy_abaqus_mesh, only : abaqus_type, members, find_surface, side_nodes, is_side, is_inside, index_of
    use axijoint_legacy_abaqus_parameters, only : reserve
    use axijoint_legacy_cards, only : cards_type
    use axijoint_legacy_list, only : list_type
@@ -51,7 +51,7 @@ contains
             node = index_of(cards, line, mesh, list%value(k))
             if (node == 0) exit
             if (.not. mesh%used(node)) then
-               call leave_out(sketch, line%card, '*CLOAD on node '//to_text(list%value(k))//', which no element has')
+               call leave_out(sketch, line%card, '*CLOAD on nodes that no element has')
                cycle
             end if
             radius = mesh%position(1, node)
@@ -78,7 +78,7 @@ contains
       !> Its card; the last of its data on return
       integer, intent(inout) :: at
       !> The mesh
-      type(abaqus_type), intent(in) :: mesh
+      type(abaqus_type), intent(inout) :: mesh
       !> Takes what acts on masses
       type(body_loads_type), intent(inout) :: bodies
       !> The new deck
@@ -114,24 +114,25 @@ contains
       !> The line
       type(line_type), intent(in) :: line
       !> The mesh
-      type(abaqus_type), intent(in) :: mesh
+      type(abaqus_type), intent(inout) :: mesh
       !> The new deck
       type(sketch_type), intent(inout) :: sketch
 
       integer :: k, i, face
 
-      face = 0
-      do k = 1, size(mesh%surfaces)
-         if (mesh%surfaces(k)%name == name_in(line, 1)) then
-            do i = 1, mesh%surfaces(k)%elements%n
-               call put(sketch%parts(part_pressures), to_text(face + i)//', 0, '// &
-                  exact(real_of(cards, line, 3)))
-            end do
-            return
-         end if
-         face = face + mesh%surfaces(k)%elements%n
-      end do
-      call fault_of(cards, line, 1, 'there is no surface of this name', 'surfaces that are above')
+      k = find_surface(cards, line, 1, mesh)
+      if (k == 0) return
+      face = sum([(mesh%surfaces(i)%elements%n, i=1, k - 1)])
+      associate (surface => mesh%surfaces(k))
+         surface%pressed = .true.
+         do i = 1, surface%elements%n
+            if (is_inside(mesh, surface%elements%value(i), surface%sides%value(i))) then
+               call leave_out(sketch, line%card, '*DSLOAD on sides that are tied to others')
+            else
+               call put(sketch%parts(part_pressures), to_text(face + i)//', 0, '//exact(real_of(cards, line, 3)))
+            end if
+         end do
+      end associate
    end subroutine press_surface
 
    !> Pressure on a side of elements: a face each
@@ -183,18 +184,15 @@ contains
       face = 0
       do k = 1, size(mesh%surfaces)
          associate (surface => mesh%surfaces(k))
-            if (surface%elements%n == 0) cycle
-            if (surface%joined) then
-               face = face + surface%elements%n
-               cycle
+            if (surface%elements%n > 0 .and. (surface%pressed .or. .not. surface%in_contact)) then
+               call put(sketch%parts(part_chains), '! surface '//surface%name//': faces '// &
+                  to_text(face + 1)//' to '//to_text(face + surface%elements%n))
+               do i = 1, surface%elements%n
+                  if (is_inside(mesh, surface%elements%value(i), surface%sides%value(i))) cycle
+                  nodes = side_nodes(mesh, surface%elements%value(i), surface%sides%value(i))
+                  call put(sketch%parts(part_chains), to_text(face + i)//', '//to_text(nodes(1))//', '//to_text(nodes(2)))
+               end do
             end if
-            call put(sketch%parts(part_chains), '! surface '//surface%name//': faces '// &
-               to_text(face + 1)//' to '//to_text(face + surface%elements%n))
-            do i = 1, surface%elements%n
-               nodes = side_nodes(mesh, surface%elements%value(i), surface%sides%value(i))
-               call put(sketch%parts(part_chains), to_text(face + i)//', '//to_text(nodes(1))// &
-                  ', '//to_text(nodes(2)))
-            end do
             face = face + surface%elements%n
          end associate
       end do

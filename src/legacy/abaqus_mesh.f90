@@ -12,7 +12,11 @@ module axijoint_legacy_abaqus_mesh
    implicit none
    private
    public :: abaqus_type, surface_type, read_nodes, read_elements, read_set, gather_nodes, read_surface, &
-      members, find_surface, side_nodes, is_side, n_side_nodes, index_of, root_of, tie, number_at
+      members, find_surface, side_nodes, is_side, n_side_nodes, find_inside, is_inside, &
+      index_of, root_of, tie, number_at, most_sides
+
+   !> Sides of an element
+   integer, parameter :: most_sides = 4
 
    !> Sides of elements with a name
    type :: surface_type
@@ -20,8 +24,8 @@ module axijoint_legacy_abaqus_mesh
       character(len=:), allocatable :: name
       !> Elements (indices) and their sides
       type(list_type) :: elements, sides
-      !> Whether it lies on another one, as contact or tied to it
-      logical :: joined = .false.
+      !> Whether it is in contact with another one, and whether a pressure acts on it
+      logical :: in_contact = .false., pressed = .false.
    end type surface_type
 
    !> What is read
@@ -34,6 +38,8 @@ module axijoint_legacy_abaqus_mesh
       !> Whether elements have a node; node that it is tied to, itself if none
       logical, allocatable :: used(:)
       integer, allocatable :: tied_to(:)
+      !> Sides that ties have made those of two elements, shape (sides, elements); not allocated without ties
+      logical, allocatable :: inside(:, :)
       !> Elements by number: numbers, nodes as on the lines, how many; whether the rule is reduced
       type(number_map_type) :: element_map
       integer, allocatable :: element(:), nodes(:, :), size(:), material(:)
@@ -467,6 +473,48 @@ contains
 
       corners = merge(3, 4, any(mesh%size(element) == [3, 6]))
    end function corners_of
+
+   !> Find sides that ties have made those of two elements: no face runs there
+   subroutine find_inside(mesh)
+      !> The mesh
+      type(abaqus_type), intent(inout) :: mesh
+
+      logical :: tied(mesh%n_nodes)
+      integer, allocatable :: sides(:, :), nodes(:)
+      integer :: k, s, other
+
+      tied = [(mesh%tied_to(k) /= k, k=1, mesh%n_nodes)]
+      do k = 1, mesh%n_nodes
+         if (tied(k)) tied(root_of(mesh, k)) = .true.
+      end do
+      allocate (sides(4, 0))  ! element, side, corners in ascending order
+      do k = 1, mesh%n_elements
+         do s = 1, corners_of(mesh, k)
+            nodes = side_nodes(mesh, k, s)
+            if (any(.not. tied([(find_number(mesh%node_map, nodes(other)), other=1, 2)]))) cycle
+            sides = reshape([sides, k, s, minval(nodes(:2)), maxval(nodes(:2))], [4, size(sides, 2) + 1])
+         end do
+      end do
+      if (.not. allocated(mesh%inside)) allocate (mesh%inside(most_sides, mesh%n_elements), source=.false.)
+      do k = 2, size(sides, 2)
+         do other = 1, k - 1
+            if (any(sides(3:, other) /= sides(3:, k))) cycle
+            mesh%inside(sides(2, k), sides(1, k)) = .true.
+            mesh%inside(sides(2, other), sides(1, other)) = .true.
+         end do
+      end do
+   end subroutine find_inside
+
+   !> Whether ties have made a side one of two elements
+   pure logical function is_inside(mesh, element, side) result(inside)
+      !> The mesh
+      type(abaqus_type), intent(in) :: mesh
+      !> Element (index) and side
+      integer, intent(in) :: element, side
+
+      inside = .false.
+      if (allocated(mesh%inside)) inside = mesh%inside(side, element)
+   end function is_inside
 
    !> Nodes of a side: two corners, and one between them of quadratic elements
    pure integer function n_side_nodes(mesh, element)

@@ -3,7 +3,7 @@ module axijoint_legacy_abaqus_temperatures
    use axijoint_base_kinds, only : wp
    use axijoint_base_text, only : to_text
    use axijoint_legacy_abaqus_lines, only : line_type, is_data, parameter_of, real_of
-   use axijoint_legacy_abaqus_mesh, only : abaqus_type, members, index_of
+   use axijoint_legacy_abaqus_mesh, only : abaqus_type, members, index_of, root_of
    use axijoint_legacy_abaqus_parameters, only : leave_data, reserve
    use axijoint_legacy_cards, only : cards_type
    use axijoint_legacy_list, only : list_type
@@ -128,7 +128,7 @@ contains
 
       do k = 1, mesh%n_nodes
          associate (change => temperatures%after(k) - temperatures%before(k))
-            if (temperatures%given(k) .and. mesh%used(k) .and. abs(change) > 0.0_wp) &
+            if (temperatures%given(k) .and. mesh%used(k) .and. root_of(mesh, k) == k .and. abs(change) > 0.0_wp) &
                call put(sketch%parts(part_temperatures), to_text(mesh%node(k))//', , , 0, '//exact(change))
          end associate
       end do

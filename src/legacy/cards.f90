@@ -163,7 +163,7 @@ contains
       !> Its name
       character(len=*), intent(in) :: name
 
-      character(len=:), allocatable :: token
+      character(len=:), allocatable :: token, shown
       integer :: first, last, fault, digits
 
       value = 0.0_wp
@@ -172,17 +172,34 @@ contains
       if (len(token) == 0) return
       digits = max(0, cards%places(n)%decimals)
       if (index(token, '.') > 0) digits = 0
+      shown = token
+      token = with_letter(token)
       call read_real(token, value, fault)
       if (digits > 0 .and. fault == token_good .and. abs(value) > 0.0_wp) then
          call read_real(with_decimals(token, digits), value, fault)
          call add_warning(cards%diagnostics, cards%at, first, last, name//' has no decimal point: its last '// &
-            to_text(digits)//' digits are decimals, as its format says', found=token//', read as '//to_text(value), &
+            to_text(digits)//' digits are decimals, as its format says', found=shown//', read as '//to_text(value), &
             mend='write the point')
       end if
       if (fault /= token_good) call add_error(cards%diagnostics, cards%at, first, last, &
-         name//' is no number', found=token, &
+         name//' is no number', found=shown, &
          allowed='a number in columns '//columns(cards, n), mend=misplaced)
    end function real_at
+
+   !> A real whose exponent may be a sign and digits alone, as Fortran allows, with the letter
+   pure function with_letter(token) result(number)
+      !> It
+      character(len=*), intent(in) :: token
+      !> The same with an E
+      character(len=:), allocatable :: number
+
+      integer :: sign
+
+      number = token
+      if (scan(token, 'EeDd') > 0) return
+      sign = scan(token, '+-', back=.true.)
+      if (sign > 1) number = token(:sign - 1)//'E'//token(sign:)
+   end function with_letter
 
    !> A real without a point, so many of whose digits before an exponent are decimals
    function with_decimals(token, decimals) result(number)

@@ -13,8 +13,8 @@ module axijoint_model_locate
    !> for curved sides, which may leave the box of their nodes; and by which a node may be off the middle of a straight side
    real(wp), parameter :: straight_margin = 1.0e-5_wp, curved_margin = 0.25_wp, off_middle = 1.0e-6_wp
 
-   !> Distance from a side, in lengths of its chord, up to which a point outside is meant to lie on it: an outline that curves is
-   !> met by sides of elements but for its share of their sagitta
+   !> Distance from a side, in lengths of its chord, or of the depth of its element if that is less, up to which a point outside is
+   !> meant to lie on it: an outline that curves is met by sides of elements but for its share of their sagitta
    real(wp), parameter :: beside = 0.02_wp
 
 contains
@@ -138,7 +138,7 @@ contains
             do side = 1, n_corners(n)
                call nearest_on_side(x, side, position, place)
                distance = norm2(position - place)
-               if (distance >= nearest .or. distance > beside*norm2(x(:, mod(side, n_corners(n)) + 1) - x(:, side))) cycle
+               if (distance >= nearest .or. distance > beside*least_extent(x, side)) cycle
                call find_natural(x, place, natural, inside)
                if (.not. inside) cycle
                nearest = distance
@@ -150,6 +150,23 @@ contains
          end associate
       end do
    end subroutine locate_beside
+
+   !> Length of a side, or of what its element has behind it if that is less
+   pure real(wp) function least_extent(x, side) result(extent)
+      !> r and z of the nodes of the element, shape (2, nodes)
+      real(wp), intent(in) :: x(:, :)
+      !> The side
+      integer, intent(in) :: side
+
+      real(wp) :: along(2)
+      integer :: k, n
+
+      n = n_corners(size(x, 2))
+      along = x(:, mod(side, n) + 1) - x(:, side)
+      extent = norm2(along)
+      if (.not. extent > 0.0_wp) return
+      extent = min(extent, maxval([(abs(along(1)*(x(2, k) - x(2, side)) - along(2)*(x(1, k) - x(1, side))), k=1, n)])/extent)
+   end function least_extent
 
    !> The point of a side that is nearest to a point: by steps along the side, then by projection on its tangent
    pure subroutine nearest_on_side(x, side, position, place)

@@ -242,7 +242,9 @@ def formats(program, folder):
         faults += ran.ended_with(2) + ([] if f'b.fmt:1: {words}' in ran.err else [f'{card}: {ran.err}'])
     old = next(line for line in text.split('\n') if line.strip().startswith('21000'))
     ran = program.run('check', *FLAG, write(folder, 'c.dat', text.replace(old, f'{"21E3":>10}' + old[10:])))
-    return faults + ([] if 'E has no decimal point' in ran.err and '21E3, read as 0.21' in ran.err else [ran.err[:600]])
+    faults += [] if 'E has no decimal point' in ran.err and '21E3, read as 0.21' in ran.err else [ran.err[:600]]
+    ran = program.run('check', *FLAG, write(folder, 'd.dat', text.replace(old, f'{"21+3":>10}' + old[10:])))
+    return faults + ran.ended_with(0) + ([] if '21+3, read as 0.21' in ran.err else [ran.err[:600]])
 
 
 def dialect_error(program, folder):

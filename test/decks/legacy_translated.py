@@ -187,6 +187,45 @@ def abaqus_orthotropic(program, folder):
     return faults[:3] + ([] if cards in deck else [deck[:900]])
 
 
+def abaqus_plates(program, folder):
+    """Two flat plates, one on the other, in elements forty times as long as thick: p h (1/E + 1/k), k for a hundredth of the h/E of
+    an element"""
+    lines = ['*HEADING', 'Plates', '*NODE, NSET=ALL']
+    lines += [f'{100*k + i}, {4.0*i:.1f}, {z}' for k, z in enumerate((0.0, 0.1, 0.1, 0.2)) for i in range(1, 4)]
+    lines += ['*ELEMENT, TYPE=CAX4, ELSET=BODY', '1, 1, 2, 102, 101', '2, 2, 3, 103, 102', '3, 201, 202, 302, 301', '4, 202, 203, 303, 302',
+              '*SURFACE, NAME=LOW', '1, S3', '2, S3', '*SURFACE, NAME=HIGH', '3, S1', '4, S1', '3, S1', '*SURFACE, NAME=TOP', '3, S3', '4, S3',
+              '*MATERIAL, NAME=M', '*ELASTIC', '1000., 0.', '*SOLID SECTION, ELSET=BODY, MATERIAL=M', '*SURFACE INTERACTION, NAME=I',
+              '*FRICTION', '0.2,', '*CONTACT PAIR, INTERACTION=I', 'LOW, HIGH', 'HIGH, LOW', '*BOUNDARY', '1, 2', '2, 2', '3, 2',
+              '*STEP', '*STATIC', '*DSLOAD', 'TOP, P, 10.', '*END STEP', '*STEP', '*STATIC', '*CHANGE FRICTION, INTERACTION=I', '*FRICTION',
+              '0.7,', '*CONTACT PAIR, INTERACTION=I', 'TOP, LOW', '*END STEP', '']
+    _, deck, summary, tables = translated(program, folder, 'plates.inp', '\n'.join(lines))
+    found, wanted = min(row['v'] for row in tables['m = 0']), -10.0*0.2/1000.0*1.005
+    return ([] if abs(found - wanted) < 1e-6*abs(wanted) else [f'v: {found}, not {wanted}']) + (
+        [] if summary['joints'] == 2 and exact_angle(0.2) in deck else [f"joints: {summary['joints']}\n{deck[:800]}"])
+
+
+def exact_angle(friction):
+    """Angle of friction as it stands in a deck"""
+    return f'{math.degrees(math.atan(friction)):.12E}'[:12]
+
+
+def abaqus_ties(program, folder):
+    """Ties of surfaces of which the second is the smaller, a boundary above them: no face runs where sides are tied; names of
+    interactions that are not there, and contact of parts that are tied elsewhere, are said"""
+    tie = ('*BOUNDARY', '13, 2', '*SURFACE, NAME=BOTH', '8, S2', '7, S3', '*TIE, NAME=T', 'BOTH, HUB')
+    text = scenes.abaqus_rings(tie).replace('BORE, P, 8.', 'BORE, P, 8.\nBOTH, P, 0.')
+    said, _, _, tables = translated(program, folder, 'ties.inp', text)
+    found, wanted = max(row['u'] for row in tables['m = 0']), rings(0)[0]
+    faults = [] if abs(found - wanted) < 1e-6*wanted else [f'u(a): expected {wanted}, found {found}']
+    faults += [] if '1 of the 2 sides of the first surface lie on none' in said and '*DSLOAD on sides that are tied' in said else [said]
+    pair = ('*SURFACE INTERACTION, NAME=I', '*CONTACT PAIR, INTERACTION=J', 'FIT, HUB')
+    ran = program.run('convert', write(folder, 'name.inp', scenes.abaqus_rings(pair)), os.path.join(folder, 'name.dat'))
+    faults += ran.ended_with(2) + ([] if 'there is no interaction of the name "J"' in ran.err else [ran.err])
+    pair = ('*TIE, NAME=T', 'FIT, HUB', '*SURFACE INTERACTION, NAME=J', '*CONTACT PAIR, INTERACTION=J', 'FIT, HUB')
+    ran = program.run('convert', write(folder, 'both.inp', scenes.abaqus_rings(pair)), os.path.join(folder, 'both.dat'))
+    return faults + ran.ended_with(0) + ([] if 'they are one body' in ran.err else [ran.err])
+
+
 def abaqus_apart(program, folder):
     """Surfaces that stand apart, or do not lie on each other: told, and the end says that something is not in the deck"""
     pair = ('*SURFACE INTERACTION, NAME=DRY', '*CONTACT PAIR, INTERACTION=DRY', 'FIT, HUB')
@@ -217,7 +256,7 @@ def abaqus_places(program, folder):
     force = re.search(r'axial force \(along z\) +(\S+)', text)
     faults += [] if force and abs(float(force.group(1)) - 3.0) < 1e-9 else [f'force on the axis: {force and force.group(0)}']
     faults += [f'in the deck: {words}' for words in ('\n9, ', 'MOVEDNODES', 'E-017') if words in deck]
-    return faults + [f'not said: {words}' for words in ('*CLOAD on node 9, which no element has',) if words not in said]
+    return faults + [f'not said: {words}' for words in ('*CLOAD on nodes that no element has', '*BOUNDARY of nodes that no element has',) if words not in said]
 
 
 def nastran_axis(program, folder):
@@ -240,7 +279,7 @@ def unknown(program, folder):
 CONTACT = (
     # what is between two rings, its stiffness, what the new deck has
     ('hard', ('*SURFACE INTERACTION, NAME=DRY', '*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=HARD', '*FRICTION', '0.5,',
-              '*CONTACT PAIR, INTERACTION=DRY, TYPE=SURFACE TO SURFACE', 'FIT, HUB'), 100*21000/0.1,
+              '*CONTACT PAIR, INTERACTION=DRY, TYPE=SURFACE TO SURFACE', 'FIT, HUB'), 100*21000/0.0625,
      ('JOINTS\n! FIT on HUB\n1, 1, ', '2.656505117707799E+001', '1, RESULTANT')),
     ('linear', ('*SURFACE INTERACTION, NAME=SOFT', '*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR', '5000.',
                 '*CONTACT PAIR, INTERACTION=SOFT', 'HUB, FIT'), 5000.0, ('1, 5.0E+003, 5.0E+003',)),
@@ -292,7 +331,7 @@ def tests(program):
         return Test(f'legacy translated: {name}', lambda folder: function(program, folder, *arguments))
 
     return ([test(name.__name__.replace('_', ' '), name) for name in (inputs, fields, nastran, nastran_lame, nastran_axis, ring_forces,
-                                                             abaqus_loads, abaqus_heat, abaqus_orthotropic, abaqus_apart, abaqus_places, unknown)]
+                                                             abaqus_loads, abaqus_heat, abaqus_orthotropic, abaqus_plates, abaqus_ties, abaqus_apart, abaqus_places, unknown)]
             + [test(f'Abaqus, {kind}', abaqus, kind, share) for kind, share in (('CAX8R', 1e-6), ('CAX8', 1e-5), ('CAX4', 2e-3))]
             + [test(f'Abaqus, contact, {name}', abaqus_contact, *more) for name, *more in CONTACT]
             + [test(f'bad {kind}, {words}', bad, kind, old, new, place, words) for kind, old, new, place, words in BAD])

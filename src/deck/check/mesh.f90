@@ -83,7 +83,7 @@ contains
       type(point_tree_type) :: tree
       real(wp), allocatable :: shortest(:), farthest(:)
       integer, allocatable :: outer(:), pairs(:, :), order(:)
-      integer :: i, k, n_found, found(most_near), kind
+      integer :: i, k, n_found, found(most_near), kind, other
       real(wp) :: distance
 
       associate (body => draft%node_body(:draft%n_nodes))
@@ -98,17 +98,13 @@ contains
          do i = 1, size(outer)
             associate (node => outer(order(i)))
                call points_near(tree, draft%position(:, node), close_by*shortest(node), found, n_found)
-               do k = 1, n_found
-                  associate (other => outer(found(k)))
-                     if (body(other) >= body(node) .or. body(other) == 0) cycle
-                     distance = norm2(draft%position(:, other) - draft%position(:, node))
-                     if (.not. distance > same_place*draft%extent) exit
-                     kind = merge(1, 2, distance <= one_place*shortest(node))
-                     call note([body(other), body(node), kind])
-                     if (kind == 1) draft%position(:, node) = draft%position(:, other)
-                     exit
-                  end associate
-               end do
+               other = nearest_of_others(found(:n_found))
+               if (other == 0) cycle
+               ! who is at one place with a body stands apart from none behind it; of two bodies the later one moves
+               if (.not. distance > same_place*draft%extent .or. body(other) > body(node)) cycle
+               kind = merge(1, 2, distance <= one_place*shortest(node))
+               call note([body(other), body(node), kind])
+               if (kind == 1) draft%position(:, node) = draft%position(:, other)
             end associate
          end do
       end associate
@@ -127,6 +123,29 @@ contains
       end do
 
    contains
+
+      !> Nearest node of another body, at `distance`; 0 if there is none
+      integer function nearest_of_others(near) result(nearest)
+         !> Nodes near by, by their places among the outer ones
+         integer, intent(in) :: near(:)
+
+         real(wp) :: length
+         integer :: l
+
+         nearest = 0
+         distance = huge(1.0_wp)
+         associate (node => outer(order(i)))
+            do l = 1, size(near)
+               associate (other => outer(near(l)))
+                  if (draft%node_body(other) == draft%node_body(node) .or. draft%node_body(other) == 0) cycle
+                  length = norm2(draft%position(:, other) - draft%position(:, node))
+                  if (length >= distance) cycle
+                  distance = length
+                  nearest = other
+               end associate
+            end do
+         end associate
+      end function nearest_of_others
 
       !> Count a node of a pair of bodies
       subroutine note(pair)

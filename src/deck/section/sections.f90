@@ -102,7 +102,7 @@ contains
          if (.not. is_good(card)) cycle
          associate (line => deck%model%lines(card%entry))
             call locate_points(mesh, line)
-            if (size(line%points) > 0) call add_ends(mesh, line)
+            if (size(line%points) > 0) call add_ends(deck, card, mesh, line)
             if (allocated(lies)) deallocate (lies)
             allocate (lies(line%n_points), source=.false.)
             lies(line%points%number) = .true.
@@ -126,26 +126,60 @@ contains
       end do
    end subroutine place_lines
 
-   !> Put ends of a line that lie just outside the mesh, as on an outline that curves, on the nearest side
-   subroutine add_ends(mesh, line)
+   !> Put ends of a line that lie just outside the body that it comes from, as on an outline that curves, on its nearest side
+   subroutine add_ends(deck, card, mesh, line)
+      !> Takes warnings
+      type(deck_type), intent(inout) :: deck
+      !> The card of the line
+      type(card_type), intent(in) :: card
       !> The mesh
       type(mesh_type), intent(in) :: mesh
       !> The line, some points of which lie in elements
       type(line_type), intent(inout) :: line
 
-      type(line_point_type) :: hit
+      type(line_point_type) :: hit, neighbour
       logical :: found
 
-      if (line%points(1)%number > 1) then
+      neighbour = line%points(1)
+      if (neighbour%number > 1) then
          hit%number = 1
-         call locate_beside(mesh, line%first, 0, hit, found)
+         call locate_beside(mesh, line%first, mesh%element_body(neighbour%element), hit, found)
+         if (found) found = reaches(line%first)
+         if (found) call tell(line%first)
          if (found) line%points = [hit, line%points]
       end if
-      if (line%points(size(line%points))%number < line%n_points) then
+      neighbour = line%points(size(line%points))
+      if (neighbour%number < line%n_points) then
          hit%number = line%n_points
-         call locate_beside(mesh, line%last, 0, hit, found)
+         call locate_beside(mesh, line%last, mesh%element_body(neighbour%element), hit, found)
+         if (found) found = reaches(line%last)
+         if (found) call tell(line%last)
          if (found) line%points = [line%points, hit]
       end if
+
+   contains
+
+      !> Whether there is nothing between the side and the point of the line before it but what the side is off
+      pure logical function reaches(end)
+         !> The end of the line
+         real(wp), intent(in) :: end(2)
+
+         real(wp) :: spacing
+
+         spacing = norm2(line%last - line%first)/(line%n_points - 1)
+         reaches = norm2(end - neighbour%position) <= 2.0_wp*norm2(end - hit%position) + 1.5_wp*spacing
+      end function reaches
+
+      !> Say how far the end is moved
+      subroutine tell(end)
+         !> It
+         real(wp), intent(in) :: end(2)
+
+         call add_warning(deck%diagnostics, first_card(card), 0, 0, 'an end of section '//to_text(line%label)// &
+                          ' lies just outside: it is put on the nearest side', &
+                          found='a distance of '//to_text(norm2(end - hit%position)))
+      end subroutine tell
+
    end subroutine add_ends
 
    !> Smallest and largest coordinate of the mesh
