@@ -9,7 +9,7 @@ import time
 from support import INPUTS, Test, expected, read_text, write
 
 # What two runs of a deck need not have alike
-STAMPS = ('date', 'run', 'seconds', 'error_seconds', 'increment_seconds', 'peak_memory_mb')
+STAMPS = ('date', 'run', 'file_bytes', 'seconds', 'error_seconds', 'increment_seconds', 'peak_memory_mb')
 SHORT = ('first', 'case1', 'chimney')
 
 
@@ -28,7 +28,7 @@ def summaries(folder):
 def blocks(text):
     """What is said of each deck, without times, in any order"""
     lines = [line for line in text.splitlines() if not line.startswith(('time', 'files'))]
-    return sorted('\n'.join(lines).split('deck ')[1:])
+    return sorted(block.strip() for block in '\n'.join(lines).split('deck ')[1:])
 
 
 def same_results(program, folder):
