@@ -1,7 +1,7 @@
 """Sums of harmonics round the circle, and components in Cartesian directions. Angles are in degrees."""
 import numpy as np
 
-SYMMETRIC = 1
+SYMMETRIC, ANTISYMMETRIC = 1, 2
 
 
 def cosine(degrees):

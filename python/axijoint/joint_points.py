@@ -84,6 +84,18 @@ class JointPoints:
         jump = self._jump(theta if theta.ndim == 2 else theta[:, None])
         return self._field(theta, self._at_rest + self._stiffness*jump, jump, np.zeros(jump.shape[:2], int))
 
+    def amplitudes(self):
+        """Of joints that do not yield: harmonics, families, and by name amplitudes of `stress`, `jump`, and `gap` in d_eta.
+
+        Those of a name are (modes, points, 3); a mode of each family without waves holds what is there at rest.
+        """
+        result, rest = self._result, np.zeros((2, len(self.owner), 3))
+        jump = np.concatenate([result.jump_amplitude, rest])
+        stress, gap = self._stiffness*jump, jump.copy()
+        stress[-2, :, :2], stress[-1, :, 2], gap[-2, :, 1] = self._at_rest[:, :2], -self._at_rest[:, 2], self._gap
+        return (np.append(result.harmonic, [0, 0]), np.append(result.family, [circle.SYMMETRIC, circle.ANTISYMMETRIC]),
+                {"stress": stress, "jump": jump, "gap": gap})
+
     def part(self):
         """Round the circle, or from 0 to 180 degrees if the rest is the mirror image; angles ascend."""
         if self.yields:

@@ -113,16 +113,16 @@ def _mesh(job, _):
 
 
 def _deformed(job, _):
-    peak = extremes(job.result)["length"][1]
+    peak = extremes(job.result)["length"][-1]
     return ("Deformed body", "Meridional planes θ = 0 (right) and θ = 180° (left), displacements enlarged; dashed: at "
             f"rest. The largest displacement of all angles is {_place(job, peak)}.")
 
 
 def _contours(job, name):
-    low, high = extremes(job.result)["length" if name == "displacement" else name]
+    *low, high = extremes(job.result)["length" if name == "displacement" else name]
     unit = job.units.length if name == "displacement" else job.units.stress
     span = f"up to {_place(job, high)}" if name == "displacement" else \
-        f"from {_place(job, low)}, to {_place(job, high)}"
+        f"from {_place(job, *low)}, to {_place(job, high)}"
     return (NAMES[name] + (f" [{unit}]" if unit else ""),
             f"Contours on the planes θ = 0 (right) and θ = 180° (left). All angles: {span}.")
 

@@ -70,7 +70,7 @@ def _main_numbers(job):
     peaks = joint_peaks(job.result) if joints.rows else {}
     opened = int((joints["state"] == "open").sum()) if joints.rows else None
     return [job.result.convergence().rows, job.result.attributes_of("convergence")["residual_ratio"],
-            job.result.attributes_of("resultants")["part_equilibrium_error"], extremes(job.result)["length"][1].value,
+            job.result.attributes_of("resultants")["part_equilibrium_error"], extremes(job.result)["length"][-1].value,
             peaks["pressure"].value if peaks and peaks["pressure"].value > 0 else None, opened]
 
 
@@ -124,7 +124,7 @@ def _outcome(job):
             "that the transfer of stresses to 3 % would leave"
         rows.append(("joint stress, difference", f"{number(other)} of the largest, {words}"))
     rows.append(("errors", budget.line(job)))
-    rows.append(("largest displacement", _at(extremes(result)["length"][1], job.units.length)))
+    rows.append(("largest displacement", _at(extremes(result)["length"][-1], job.units.length)))
     joints = result.joints()
     if joints.rows:
         states = ", ".join(f"{int((joints['state'] == state).sum())} {state}" for state in ("stick", "slip", "open"))

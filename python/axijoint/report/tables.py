@@ -1,7 +1,7 @@
 """Tables of a job: what it is made of, what acts on it, what came out."""
 import numpy as np
 
-from ..circle import SYMMETRIC
+from ..circle import ANTISYMMETRIC, SYMMETRIC
 from ..components import DISPLACEMENTS, STRESSES
 from ..result import STATES
 from .extremes import extremes, joint_peaks
@@ -14,7 +14,7 @@ SYMBOLS = {name: Markup(text) for name, text in {
 NO_BREAK = "\u00a0"
 RULES = {1: "centroid", 2: "Gauss", 3: "Lobatto"}
 RESULTANTS = ("axial force", "lateral force", "moment", "torque", "lateral force at 90°", "moment at 90°")
-FAMILIES = {SYMMETRIC: "symmetric", 2: "antisymmetric"}
+FAMILIES = {SYMMETRIC: "symmetric", ANTISYMMETRIC: "antisymmetric"}
 
 
 def with_unit(name, unit):
@@ -199,12 +199,11 @@ def largest(job):
     """Largest values of displacements, stresses and joints."""
     found, units = extremes(job.result), job.units
     rows = []
-    for name, pair in found.items():
+    for name, peaks in found.items():
         unit = units.stress if name in STRESSES else units.length
-        for word, peak in zip(("smallest", "largest"), pair):
-            if name == "length" and word == "smallest" or name != "length" and pair[0].value == pair[1].value == 0:
-                continue
-            rows.append([with_unit(SYMBOLS[name], unit), word, *peak.cells()])
+        if name == "length" or any(peak.value for peak in peaks):
+            rows += [[with_unit(SYMBOLS[name], unit), word, *peak.cells()]
+                     for word, peak in zip(("smallest", "largest")[-len(peaks):], peaks)]
     head = ["quantity", "end", "value", "r", "z", "θ [°]", "where"]
     yield table("Nodes", head, rows, "Stresses are smoothed to the nodes; values are the largest round the circle. "
                 "What is zero is left out.",
