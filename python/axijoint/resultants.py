@@ -6,7 +6,7 @@ from . import circle
 AXIAL, TORQUE = 0, 3
 # Columns along theta = 0 and 90 degrees
 FORCE, MOMENT = (1, 4), (2, 5)
-# Lateral resultants below this share of the largest number are rounding
+# Lateral resultants below this share of the largest of all are rounding, as the sum of reactions that balance one another is
 ROUNDING = 1e-9
 
 
@@ -19,13 +19,14 @@ def direction(history):
     """Direction of the largest lateral load of a History, 0 <= theta < 180 [degree].
 
     Of loads without lateral forces that of their largest moment; where loads have neither, as where displacements are
-    given, that of reactions or of what cuts carry. 0 if nothing is lateral.
+    given, that of all reactions, of what cuts carry or of the reactions of a face. 0 if nothing is lateral.
     """
-    for name in ("applied", "reacted", "cuts"):
-        values = history[name].reshape(-1, 6) if name in history else np.zeros((0, 6))
+    known = [history[name].reshape(-1, 6) for name in ("applied", "reacted", "cuts", "supports") if name in history]
+    rounding = ROUNDING*max((abs(values).max(initial=0) for values in known), default=0)
+    for values in known:
         for kind in (FORCE, MOMENT):
             size = np.hypot(*values[:, kind].T)
-            if size.max(initial=0) > ROUNDING*abs(values).max(initial=0):
+            if size.max(initial=0) > rounding:
                 theta = np.degrees(np.arctan2(*values[size.argmax(), kind[::-1]]))
                 return float(np.round(theta, 6) % 180)
     return 0.0

@@ -31,6 +31,32 @@ def numbers(text):
     return np.frombuffer(base64.b64decode(text), "<u4")
 
 
+MOVED = """TITLE
+A column whose head is moved aside towards 60 degrees
+CONTROL
+    1
+INCREMENTS
+0.5
+1.0
+MATERIALS
+    1     1.0E3       0.0
+BLOCKS
+    1    1    8    2    4
+0.0, 0.0, 1.0, 4.0
+FACES
+5, 1, 0.0, 0.0, 1.0, 0.0
+6, 1, 0.0, 4.0, 1.0, 4.0
+FIXEDFACES
+    5  111
+MOVEDFACES
+6, 1, 0.05, 0.0, -0.05, 0.05, 0.0, -0.05, S, EVERY
+6, 1, 0.0866025403784439, 0.0, -0.0866025403784439, , , , A, EVERY
+POINTS
+1, 0.0, 4.0, , head
+"""
+CUTS = "CUTS\n1, 1.0, 1\n2, 2.0, 1\n3, 3.0, 1\n"
+
+
 class Views(unittest.TestCase):
     """The monopile with stresses of two increments; a chimney of two combinations and both families"""
 
@@ -106,6 +132,15 @@ class Views(unittest.TestCase):
         for one, other in zip(found, wanted):
             values, straight = (np.array(curve["lines"][0]["x"]) for curve in (one, other))
             np.testing.assert_allclose(values, straight, rtol=0, atol=0.01*abs(straight).max(), err_msg=one["title"])
+
+    def test_curves_of_displacements_that_are_given(self):
+        """Reactions balance one another: the direction is that of what cuts carry, or of the reactions of a face"""
+        for name, cuts, titles in (("with_cuts", CUTS, ["Shear force", "Moment", "Deflection"]), ("without", "", [])):
+            job, = report.jobs_of(jobs.run(self.folder.name, name, f"{MOVED}{cuts}END\n"))
+            found = curves.curves(job, [1, 2])
+            self.assertEqual([one["title"] for one in found[1:-1]], [f"{one} of body 1 at θ = 60°" for one in titles])
+            self.assertEqual(found[0]["x"], "u at θ = 60°")
+            np.testing.assert_allclose(found[0]["lines"][0]["x"], [0.05, 0.15], rtol=1e-6)
 
     def test_curves_across_the_load(self):
         """Loads that turn: profiles along the largest of them and across it"""

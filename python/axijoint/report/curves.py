@@ -35,15 +35,20 @@ def _unit(name, unit):
 
 
 def _displacements(job):
-    """Load against displacement of the named points, along the lateral load if that changes, else along z."""
+    """Load against displacement of the named points: along the lateral load if that changes, along z if another does.
+
+    Where no load changes, as where displacements are given, against what is the larger of both.
+    """
     history, units, theta = job.result.history, job.units, direction(job.result.history)
     names = history.point_names if "points" in history else []
     if not names or len(history.increment) < 2:
         return None
     load_name, columns, load = load_of(history, theta)
     unit = "" if columns is None else units.force if columns in (AXIAL, FORCE) else units.moment
-    moved = 0 if columns in (FORCE, MOMENT) else 1
-    lines = [{"name": name, "x": _number(history.point(name, theta)[:, moved]), "y": _number(load)} for name in names]
+    points = np.array([history.point(name, theta) for name in names])
+    lateral, vertical, _ = abs(points).max(axis=(0, 1))
+    moved = 0 if columns in (FORCE, MOMENT) or columns is None and lateral > vertical else 1
+    lines = [{"name": name, "x": _number(one[:, moved]), "y": _number(load)} for name, one in zip(names, points)]
     return {"kind": "history", "title": f"Load and displacement at {_at(theta)}",
             "x": _unit(f"{'uv'[moved]} at {_at(theta)}", units.length), "y": _unit(load_name, unit),
             "increments": history.increment.tolist(), "lines": lines}
