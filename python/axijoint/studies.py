@@ -34,6 +34,10 @@ class Rows(Table):
     def __contains__(self, name: object) -> bool:
         return self._own(name) is not None
 
+    def get(self, name: object, default: Any = None) -> Any:
+        """A column, or what is given in its place if there is none."""
+        return self[name] if name in self else default
+
     def where(self, mask: Any) -> Rows:
         """The rows for which a mask holds, or of a list of numbers of rows."""
         return Rows(super().where(mask))

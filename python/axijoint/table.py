@@ -25,6 +25,10 @@ class Table(dict):
         """The rows for which a mask (array of logicals) holds, or of a list of numbers of rows."""
         return Table((name, column[mask]) for name, column in self.items())
 
+    def copy(self):
+        """A table of the same columns."""
+        return type(self)(self)
+
     def to_pandas(self):
         """The same as a pandas.DataFrame; pandas must be installed."""
         try:

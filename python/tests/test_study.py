@@ -92,6 +92,14 @@ class Studies(unittest.TestCase):
         with self.assertRaisesRegex(KeyError, "no column 'LAWS 1 FI'; there are row, LAWS 1 PHI"):
             rows["LAWS 1 FI"]
 
+    def test_get_and_copy_take_names_in_any_case(self):
+        rows = self.whole.rows
+        for table in (rows, rows.copy()):
+            np.testing.assert_array_equal(table.get("laws 1 phi"), rows["LAWS 1 PHI"])
+            self.assertIsNone(table.get("LAWS 1 FI"))
+            self.assertEqual(table.get("LAWS 1 FI", 3), 3)
+        self.assertEqual(rows.copy().rows, 12)
+
     def test_quiet(self):
         """What a study prints is not what tells that it came to its end"""
         self.same(axijoint.study(DECK, TABLE, folder=self.folder/"quiet", threads=1, options=["--quiet"]))
