@@ -77,6 +77,7 @@ contains
 
       type(file_type) :: file
       type(line_type) :: line
+      real(wp), allocatable :: young(:)
       integer :: at
 
       sketch%title = ''
@@ -100,7 +101,8 @@ contains
       if (cards%diagnostics%n_errors > 0) return
       call put_boundary(file%mesh, file%boundary, sketch)
       call put_temperatures(file%mesh, file%temperatures, sketch)
-      call put_contact(cards, file%mesh, file%contact, file%materials%young, sketch)
+      young = file%materials%young
+      call put_contact(cards, file%mesh, file%contact, young, sketch)
       call write_mesh(cards, file%names, file%materials, file%mesh, file%bodies, sketch)
    end subroutine read_abaqus
 

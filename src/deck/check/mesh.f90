@@ -268,7 +268,7 @@ contains
       do i = 1, draft%n_elements
          if (n_corners(draft%element_size(i)) < 4) cycle
          do k = 1, 2
-            call look(draft%element_nodes(k, i), draft%element_nodes(k + 2, i))
+            call compare_across(draft%element_nodes(k, i), draft%element_nodes(k + 2, i))
          end do
       end do
       do i = 1, edges%n
@@ -279,7 +279,7 @@ contains
                if (any(edges%nodes(:2, i) == draft%element_nodes(k, one))) cycle
                do l = 1, corners(2)
                   if (any(edges%nodes(:2, i) == draft%element_nodes(l, other))) cycle
-                  call look(draft%element_nodes(k, one), draft%element_nodes(l, other))
+                  call compare_across(draft%element_nodes(k, one), draft%element_nodes(l, other))
                end do
             end do
          end associate
@@ -288,14 +288,14 @@ contains
    contains
 
       !> Look at two nodes
-      subroutine look(a, b)
+      subroutine compare_across(a, b)
          integer, intent(in) :: a, b
 
          if (a == 0 .or. b == 0 .or. a == b) return
          if (outer(a) .or. outer(b)) return
          if (any(abs(draft%position(:, b) - draft%position(:, a)) > least_distance*min(shortest(a), shortest(b)))) return
          call compare_nodes(draft, group, min(a, b), max(a, b), shortest(max(a, b)), diagnostics)
-      end subroutine look
+      end subroutine compare_across
 
    end subroutine check_slivers_inside
 
