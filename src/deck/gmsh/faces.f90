@@ -205,6 +205,30 @@ contains
                        allowed='a curve along outer edges of one body', mend=mend)
    end subroutine report_line
 
+   !> Report a curve in several pieces
+   subroutine report_pieces(card, first, other, draft)
+      !> The card of GROUPS
+      class(entry_type), intent(in) :: card
+      !> Where a piece begins, and where one more does
+      integer, intent(in) :: first, other
+      !> The mesh of the deck
+      type(draft_type), intent(in) :: draft
+
+      character(len=:), allocatable :: text, mend
+
+      associate (body => draft%node_body)
+         if (body(first) /= body(other)) then
+            text = 'the curve runs along bodies '//to_text(body(first))//' and '//to_text(body(other))
+            mend = 'make a physical curve for each body: that of the second begins at '
+         else
+            text = 'the curve is in several pieces'
+            mend = 'make a physical curve of each piece: one more begins at '
+         end if
+      end associate
+      call field_fault(card, field_named(card, name_group), text, allowed='one line along one body, open or closed', &
+                       mend=mend//place_text(draft%position(:, other)))
+   end subroutine report_pieces
+
    !> Put the edges of a face one after another, in the direction of the first line
    subroutine chain(card, ends, edges, draft, face)
       !> The card of GROUPS
@@ -252,20 +276,7 @@ contains
       end if
       if (.not. all(passed)) then
          face%good = .false.
-         associate (other => ends(1, findloc(passed, .false., 1)))
-            if (draft%node_body(other) /= draft%node_body(ends(1, 1))) then
-               call field_fault(card, field_named(card, name_group), 'the curve runs along bodies '// &
-                                to_text(draft%node_body(ends(1, 1)))//' and '//to_text(draft%node_body(other)), &
-                                allowed='one line along one body, open or closed', &
-                                mend='make a physical curve for each body: that of the second begins at '// &
-                                place_text(draft%position(:, other)))
-            else
-               call field_fault(card, field_named(card, name_group), 'the curve is in several pieces', &
-                                allowed='one line along one body, open or closed', &
-                                mend='make a physical curve of each piece: one more begins at '// &
-                                place_text(draft%position(:, other)))
-            end if
-         end associate
+         call report_pieces(card, ends(1, 1), ends(1, findloc(passed, .false., 1)), draft)
          return
       end if
       face%edges = [(outer_edge(draft, edges, find_edge(edges, nodes(i), nodes(i + 1)), nodes(i)), &
