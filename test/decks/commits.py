@@ -138,6 +138,36 @@ def dying(program, folder, combinations, swept, links=True):
     return faults
 
 
+def waited_for(program, folder):
+    """Every file is on the disk before it gets its name; where earlier ones are replaced, the journal and its name are, too.
+    A journal of which a power cut left the name alone ends nothing"""
+    place = Place(program, folder, 1, False)
+    journal, log = f'{place.results}/job.commit', os.path.join(folder, 'log')
+    faults = []
+    for replaces in (True, False):
+        write(folder, 'log', '')
+        place.run(NAMES_LOG=log)
+        lines = [line.split(' ', 1) for line in read_text(log).splitlines()]
+        named = [path for what, path in lines if what == 'name' and path.startswith(place.results + '/job.')
+                 and not path.endswith('.tmp')]
+        names = {path: lines.index(['name', path]) for path in named}
+        temporary = rf'\.{re.escape(socket.gethostname())}\.\d+\.tmp$'
+        synced = {re.sub(temporary, '', path): k for k, (what, path) in enumerate(lines) if what == 'sync'}
+        for path in [f'{place.results}/job.{ending}' for ending in ENDINGS]:
+            if not synced.get(path, len(lines)) < names.get(path, -1):
+                faults.append(f'{path} was named before it was on the disk: {lines}')
+        first = min(k for path, k in names.items() if path != journal)
+        folders = [k for k, (what, path) in enumerate(lines) if what == 'sync' and path == place.results]
+        if replaces != (journal in synced) or replaces != any(names[journal] < k < first for k in folders):
+            faults.append(f'journal of a run that {"replaces" if replaces else "is the first"}: {lines}')
+        faults += place.mixed()
+        for name in place.earlier:
+            os.remove(os.path.join(place.results, name))
+    write(place.results, 'job.commit', '')
+    ran = place.run()
+    return faults + expected('exit code', 0, ran.returncode) + place.mixed()
+
+
 def together(program, folder):
     """Several runs of one name at a time: each writes all its files, or none (exit code 7), and no two at once"""
     place = Place(program, folder, 1, False)
@@ -269,7 +299,7 @@ def tests(program):
     found += [Test(f'names: {what}, no second names',
                    lambda folder, check=check: check(program, folder, 1, False, False))
               for check, what in ((failing, 'cannot be given'), (dying, 'a run dies'))]
-    functions = {'several runs': together, 'locks left behind': left_behind,
+    functions = {'on the disk first': waited_for, 'several runs': together, 'locks left behind': left_behind,
                  'one lock, several runs': taken_over_together, 'heirs that die': dying_heirs, 'files left behind': leftovers}
     return found + [Test(f'names: {what}', lambda folder, check=check: check(program, folder))
                     for what, check in functions.items()]

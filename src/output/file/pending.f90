@@ -48,15 +48,20 @@ contains
    end subroutine sync_file
 
    !> Give the complete file its final name when it is on the disk, replacing an earlier file
-   subroutine publish(path, error)
+   subroutine publish(path, error, lasting)
       !> Final path
       character(len=*), intent(in) :: path
       !> It is not on the disk, or the rename failed; the earlier file stands
       type(error_type), allocatable, intent(out) :: error
+      !> Whether to wait for the disk; true if absent
+      logical, intent(in), optional :: lasting
 
       integer :: errno
+      logical :: waits
 
-      call sync_file(path, error)
+      waits = .true.
+      if (present(lasting)) waits = lasting
+      if (waits) call sync_file(path, error)
       if (allocated(error)) return
       call rename_path(temporary_path(path), path, errno)
       if (errno /= 0) call io_error(error, "give its final name to", path, errno)

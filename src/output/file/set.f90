@@ -1,6 +1,10 @@
 !> Several files that get their final names as one. A journal lists them before the first does; from
 !> then on a run that dies is brought to its end by the next (`finish_set`), and a name that cannot
 !> be given brings back all earlier files. Without the journal the files in place are of one run.
+!>
+!> Waiting for a disk takes longer than all else that small jobs do. Every file has to be on it before it gets its
+!> name; the journal and the names only where files of an earlier run are replaced, which a power cut could leave
+!> beside those of this one.
 module axijoint_output_file_set
    use axijoint_base_error, only : error_type, fatal_error, exit_io
    use axijoint_base_system, only : path_kind, path_absent, rename_path, unlink_path
@@ -34,8 +38,10 @@ contains
 
       character(len=:), allocatable :: path
       integer :: errno, k, n
+      logical :: replaces
 
       halfway = .false.
+      replaces = any([(path_kind(join_path(directory, trim(names(k)))) /= path_absent, k=1, size(names))])
       call write_journal(directory, journal, names, error)
       if (allocated(error)) return
       ! the journal with the rest: the first file takes what the disk has to note of the others, too
@@ -43,12 +49,12 @@ contains
          if (.not. allocated(error)) call sync_file(join_path(directory, trim(names(k))), error)
       end do
       path = join_path(directory, journal)
-      if (.not. allocated(error)) call publish(path, error)
+      if (.not. allocated(error)) call publish(path, error, lasting=replaces)
       if (allocated(error)) then
          call discard(path)
          return
       end if
-      call sync_names(directory)
+      if (replaces) call sync_names(directory)
       do k = 1, size(names)
          path = join_path(directory, trim(names(k)))
          call set_aside(path, errno)
@@ -69,8 +75,9 @@ contains
             return
          end if
       end if
-      call sync_names(directory)
+      if (replaces) call sync_names(directory)
       call unlink_path(join_path(directory, journal), errno)
+      if (.not. replaces) return
       do k = 1, size(names)
          call unlink_path(backup_path(join_path(directory, trim(names(k)))), errno)
       end do
@@ -94,6 +101,10 @@ contains
       finished = .false.
       if (path_kind(path) == path_absent) return
       call read_whole_file(path, text, errno)
+      if (errno == 0 .and. len(text) == 0) then  ! a power cut took what was not waited for: nothing was replaced
+         call unlink_path(path, errno)
+         return
+      end if
       if (index(text, first_line//nl) /= 1 .or. index(text, nl//last_line//nl) == 0) then
          call fatal_error(error, exit_io, path//' does not say which files were about to get '// &
             'their names'//nl// &
