@@ -59,6 +59,10 @@ class Scene:
         return self.add("BLOCKS", f"{body}, {material}, {s.nodes}, {counts[0]}, {counts[1]}, {ratios[0]:.6g}, "
                         f"{ratios[1]:.6g}", ", ".join(f"{x:.10g}" for x in corners))
 
+    def cuts(self, body, first, last, n):
+        """Cuts through a body"""
+        return self.add("CUTS", f"1, {first}, {body}, {last}, {n}")
+
     def law(self, number, k, cohesion=None, friction=None, details=None):
         """A law with k along xi and theta, 2 k along eta; elastic without cohesion"""
         if cohesion is None:
@@ -88,7 +92,7 @@ def pile(setting, *, k=1e4, cohesion=None, friction=None, details=RESULTANT, you
         scene.add("SPRINGS", "6, 2e4, 1e4, 1e4")
     else:
         scene.add("FIXEDFACES", "6, 111")
-    return scene.add("RESULTANTS", *loads).text()
+    return scene.cuts(1, 0, 0.93, 12).add("RESULTANTS", *loads).text()
 
 
 def notch(setting, m=1, ratio=1.0):
@@ -106,6 +110,15 @@ def built_in(setting, poisson=0.3):
     scene = Scene("Built in", setting).add("HARMONICS", "1").add("MATERIALS", f"1, 2e4, {poisson:g}")
     scene.block(1, 1, 4, 8, (.5, 0, 1, 2), (2, 1)).add("FACES", "1, 1, .5, 0, 1, 0", "2, 1, .5, 2, 1, 2")
     return scene.add("FIXEDFACES", "1, 111").add("RESULTANTS", "2, LATERAL, 1").text()
+
+
+def held_twice(setting, springs=False):
+    """A thick tube held at its foot and beside its top, or there by springs, pushed sideways between"""
+    scene = Scene("Held twice", setting).add("HARMONICS", "0, 1").add("MATERIALS", "1, 2e4, 0.3")
+    scene.block(1, 1, 2, 4, (.5, 0, 1, 1), (2, 1)).block(1, 1, 2, 4, (.5, 1, 1, 2), (2, 0)).block(1, 1, 2, 4, (.5, 2, 1, 3), (2, 1))
+    scene.add("FACES", "1, 1, .5, 0, 1, 0", "2, 1, 1, 2, 1, 3", "3, 1, 1, 1, 1, 2", "4, 1, .5, 3, 1, 3").add("FIXEDFACES", "1, 111")
+    scene.add("SPRINGS" if springs else "FIXEDFACES", "2, 1e3, 3e4, 1e3" if springs else "2, 101")
+    return scene.cuts(1, 0, 3, 13).add("RESULTANTS", "3, LATERAL, 1", "4, AXIAL, -1", "4, TORQUE, 0.3").text()
 
 
 def tube(setting, thickness=0.5, height=2.0, shape="TABLE, -45, 0, 0, 1, 45, 0"):
@@ -222,7 +235,7 @@ def cone(setting, share=0.8):
     scene.block(1, 1, 3, 8, (0, 0, .3, 0, .6, .6, 0, .6), (2, 2))
     scene.block(2, 1, 3, 8, (.3, 0, .9, 0, 1.2, .6, .6, .6), (1, 2))
     scene.add("FACES", "1, 1, .3, 0, .6, .6", "2, 1, 0, .6, .6, .6", "3, 2, .3, 0, .6, .6", "4, 2, .9, 0, 1.2, .6")
-    scene.add("INTERFACES", "1, 1, 3").add("FIXEDFACES", "4, 111")
+    scene.add("INTERFACES", "1, 1, 3").add("FIXEDFACES", "4, 111").cuts(1, 0.05, 0.55, 6)
     scene.add("CASE", "1, pressed").add("RESULTANTS", "2, AXIAL, -1").add("CASE", "2, twisted")
     scene.add("RESULTANTS", f"2, TORQUE, {0.3*share:g}").add("COMBINE", "1, 1, 1, 2, 1")
     return scene.text((1, 1), (1, 2))
@@ -247,7 +260,7 @@ def soil_pile(setting, steps=((1, 1), (1, 2))):
     scene.block(2, 2, 2, 3, (0, -6, .5, -4), (2, 2)).block(2, 2, 6, 3, (.5, -6, 4, -4), (1, 2))
     scene.add("FACES", "1, 1, 0, 0, .5, 0", "2, 1, .5, -4, .5, 0", "3, 2, .5, -4, .5, 0", "4, 1, 0, -4, .5, -4",
               "5, 2, 0, -4, .5, -4", "6, 2, 0, -6, 4, -6", "7, 2, 4, -6, 4, 0")
-    scene.add("INTERFACES", "1, 2, 3", "2, 4, 5").add("FIXEDFACES", "6, 111", "7, 111").add("CASE", "1, weight")
+    scene.add("INTERFACES", "1, 2, 3", "2, 4, 5").add("FIXEDFACES", "6, 111", "7, 111").cuts(1, -3.9, 0, 14).add("CASE", "1, weight")
     scene.add("GRAVITY", "-1").add("INSITU", "1, 0, 0.02, 0.5", "2, 0, 0.02, 0.5").add("CASE", "2, lateral")
     scene.add("RESULTANTS", "1, LATERAL, 0.04").add("COMBINE", "1, 1, 1, 2, 1")
     return scene.text(*steps)
@@ -262,7 +275,8 @@ def pipe_pile(setting, steps=((1, 1), (1, 2))):
     scene.block(2, 2, 1, 3, (.95, -14, 1, -9), (0, 2)).block(2, 2, 2, 3, (0, -14, .95, -9), (0, 2)).block(2, 2, 2, 6, (0, -9, .95, 0))
     scene.add("FACES", "1, 1, .95, 3, 1, 3", "2, 1, 1, -9, 1, 0", "3, 2, 1, -9, 1, 0", "4, 1, .95, -9, .95, 0", "5, 2, .95, -9, .95, 0",
               "6, 1, .95, -9, 1, -9", "7, 2, .95, -9, 1, -9", "8, 2, 0, -14, 8, -14", "9, 2, 8, -14, 8, 0")
-    scene.add("INTERFACES", "1, 2, 3", "1, 4, 5", "1, 6, 7").add("FIXEDFACES", "8, 111", "9, 101").add("CASE", "1, weight")
+    scene.add("INTERFACES", "1, 2, 3", "1, 4, 5", "1, 6, 7").add("FIXEDFACES", "8, 111", "9, 101").cuts(1, -8.9, 0, 14)
+    scene.add("CASE", "1, weight")
     scene.add("GRAVITY", "-1").add("INSITU", "2, 0, 0.01, 0.5", "1, 0, 0.01, 0.5, 0, 1, MEANT").add("CASE", "2, lateral")
     scene.add("RESULTANTS", "1, LATERAL, 0.2", "1, MOMENT, -1").add("COMBINE", "1, 1, 1, 2, 1")
     return scene.text(*steps)
@@ -276,7 +290,7 @@ def shrunk_on(setting, torque=0.5):
     scene.block(1, 1, 3, 4, (0, -1, .5, 0), (2, 2)).block(1, 1, 3, 8, (0, 0, .5, 1), (2, 1))
     scene.block(2, 1, 3, 8, (.5, 0, 1, 1), (1, 1))
     scene.add("FACES", "1, 1, 0, -1, .5, -1", "2, 1, .5, 0, .5, 1", "3, 2, .5, 0, .5, 1", "4, 2, 1, 0, 1, 1")
-    scene.add("INTERFACES", "1, 2, 3").add("FIXEDFACES", "4, 111")
+    scene.add("INTERFACES", "1, 2, 3").add("FIXEDFACES", "4, 111").cuts(1, 0, 0.875, 8)
     return scene.add("RESULTANTS", f"1, TORQUE, {torque:g}").text()
 
 

@@ -12,7 +12,7 @@ import numpy as np
 
 import estimate_scenes as scenes
 from estimate_scenes import BOND, Setting
-from found_errors import displacement_error, joint_error, read
+from found_errors import cut_error, displacement_error, joint_error, read
 
 MESHES = os.path.join(os.path.dirname(os.path.realpath(__file__)), "meshes")
 BAND, SHARE, MOST = (0.5, 2.0), 0.9, 3.0
@@ -78,6 +78,8 @@ def mesh_rows():
         yield row("notch, m = 1, graded", scenes.notch, replace(linear, kind=kind, n=2, grade=10), m=1)
         yield row("notch, two materials", scenes.notch, replace(linear, kind=kind), m=1, ratio=10.0)
         yield row("built in", scenes.built_in, replace(linear, kind=kind))
+        yield row("held twice", scenes.held_twice, replace(linear, kind=kind))
+        yield row("held and on springs", scenes.held_twice, replace(linear, kind=kind), springs=True)
         yield row("cone", scenes.cone, setting)
         yield row("footing", scenes.footing, setting, setting.fine(n=3))
         yield row("pile in the ground", scenes.soil_pile, setting, setting.fine(n=3))
@@ -216,23 +218,31 @@ class Runs:
         return self.begun[deck].result()
 
     def ratios(self, row):
-        """True errors and estimates of displacement and joint stress; None where there is nothing to compare"""
+        """True errors and estimates of displacement, joint stress and resultants on cuts; None where there is nothing to compare"""
         paths = [self.result(deck) for deck in (row.deck(), row.reference())]
         if None in paths:
             return None
         own, better = map(read, paths)
         estimate = own.summary["errors"][{"mesh": "discretization", "loads": "harmonics"}.get(row.source, row.source)]
-        pairs = [(displacement_error(own, better), estimate["displacement"])]
-        true = joint_error(own, better)
-        pairs.append(None if true is None else (true, estimate["joint_stress"]))
-        return pairs
+        words = own.summary["errors"]["in_words"]
+        found = (("displacement", displacement_error(own, better), "displacement"), ("joint stress", joint_error(own, better), "joint_stress"),
+                 ("resultants on CUTS", cut_error(own, better), "cuts"))
+        return [None if true is None else Pair(true, estimate[key], f"{name} at least" in words) for name, true, key in found]
+
+
+@dataclass
+class Pair:
+    """A true error, its estimate and whether that is told as the least that it is"""
+    true: float
+    told: float
+    at_least: bool
 
 
 def judged(pair):
     """True over estimated error; None if there is nothing to judge, infinity if there is no estimate"""
-    if pair is None or pair[0] < ROUNDING and (pair[1] or 0.0) < ROUNDING:
+    if pair is None or pair.true < ROUNDING and (pair.told or 0.0) < ROUNDING:
         return None
-    return pair[0]/pair[1] if pair[1] else np.inf
+    return pair.true/pair.told if pair.told else np.inf
 
 
 def shown(pair):
@@ -240,19 +250,20 @@ def shown(pair):
     if pair is None:
         return " "*34
     ratio = judged(pair)
-    mark = " " if ratio is None or BAND[0] <= ratio <= BAND[1] else "!" if ratio > MOST else "*"
-    return (f"{100*pair[0]:10.4f} {100*(pair[1] if pair[1] is not None else np.nan):10.4f} "
+    mark = " " if ratio is None or BAND[0] <= ratio <= BAND[1] else "!" if ratio > MOST and not pair.at_least else "*"
+    return (f"{100*pair.true:10.4f} {100*(pair.told if pair.told is not None else np.nan):10.4f} "
             f"{'       -' if ratio is None else f'{ratio:8.2f}'}{mark}   ")
 
 
 def verdict(found):
     """A line for each source and whether the bars are met"""
     met = True
-    by_loads = np.array([ratio for source, ratio in found if source == "loads"])
-    found = [(source, ratio) for source, ratio in found if source != "loads"]
-    for source in [*dict.fromkeys(source for source, _ in found), *(["all"] if found else [])]:
-        ratios = np.array([ratio for own, ratio in found if source in (own, "all")])
-        share, most = np.mean((ratios >= BAND[0]) & (ratios <= BAND[1])), ratios.max()
+    by_loads = np.array([ratio for source, ratio, _ in found if source == "loads"])
+    found = [one for one in found if one[0] != "loads"]
+    for source in [*dict.fromkeys(source for source, _, _ in found), *(["all"] if found else [])]:
+        ratios = np.array([ratio for own, ratio, _ in found if source in (own, "all")])
+        most = max((ratio for own, ratio, at_least in found if source in (own, "all") and not at_least), default=0.0)
+        share = np.mean((ratios >= BAND[0]) & (ratios <= BAND[1]))
         good = share >= SHARE and most <= MOST
         print(f"{source:10} {len(ratios):4d} figures, {100*share:5.1f} % within {BAND[0]:g} and {BAND[1]:g}, "
               f"largest {most:.2f}, least {ratios.min():.2f}, median {np.median(ratios):.2f}: {'met' if good else 'MISSED'}")
@@ -275,11 +286,11 @@ def main():
     rows = [row for row in rows if args.only in f"{row.source}: {row.name}"]
     if args.quick:
         rows = rows[::6]
-    print(f"True error over its estimate, displacement (largest error over the largest) and joint stress (the same)\n"
-          f"Bars: of all figures {100*SHARE:g} % between {BAND[0]:g} and {BAND[1]:g}, none above {MOST:g}; of loads on parts of the "
-          f"circle none above {MOST_BY_LOADS:g}\n{len(rows)} rows; * outside the band, ! above {MOST:g}\n")
+    print(f"True error over its estimate, displacement (largest error over the largest), joint stress and resultants on cuts (the same)\n"
+          f"Bars: of all figures {100*SHARE:g} % between {BAND[0]:g} and {BAND[1]:g}, none above {MOST:g} but those told as \"at least\"; of loads "
+          f"on parts of the circle none above {MOST_BY_LOADS:g}\n{len(rows)} rows; * outside the band, ! above {MOST:g}\n")
     print(f"{'source':10} {'scene':46} {'disp. true':>10} {'estimate':>10} {'ratio':>8}    {'joint true':>10} "
-          f"{'estimate':>10} {'ratio':>8}   [%]")
+          f"{'estimate':>10} {'ratio':>8}    {'cuts true':>10} {'estimate':>10} {'ratio':>8}   [%]")
     found, failed = [], 0
     with tempfile.TemporaryDirectory() as folder, ThreadPoolExecutor(2) as pool:
         for mesh in os.listdir(MESHES):
@@ -294,8 +305,8 @@ def main():
                 failed += 1
                 print(f"{row.source:10} {row.name:46} did not run")
                 continue
-            print(f"{row.source:10} {row.name:46} {shown(pairs[0])}{shown(pairs[1])}", flush=True)
-            found += [(row.source, judged(pair)) for pair in pairs if judged(pair) is not None]
+            print(f"{row.source:10} {row.name:46} {''.join(map(shown, pairs))}".rstrip(), flush=True)
+            found += [(row.source, judged(pair), pair.at_least) for pair in pairs if judged(pair) is not None]
     print()
     met = verdict(found)
     sys.exit(0 if met and not failed else 1)

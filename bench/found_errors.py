@@ -123,3 +123,21 @@ def joint_error(coarse, fine):
         wrong = max(wrong, abs(at_angles(own.planes, better.planes, exact) - own.stress[:, point]).max())
         largest = max(largest, abs(own.stress[:, point]).max())
     return wrong/largest
+
+
+def cut_error(coarse, fine):
+    """Largest error of a resultant on a cut over the largest of its kind, of the cuts whose error is told; None without cuts"""
+    if not coarse.has("cuts"):
+        return None
+    own, better = (result.read("cuts/resultants") for result in (coarse, fine))
+    told = coarse.read("errors/on_cuts")[0, :, 0] >= 0
+    wrong, scale = _sizes(own - better)[told].max(0, initial=0.0), _sizes(own).max(0)
+    for kinds in ((0, 1), (2, 3)):  # a force that is next to nothing is no measure, nor is a moment
+        scale[list(kinds)] = np.maximum(scale[list(kinds)], 0.01*scale[list(kinds)].max())
+    return (wrong[scale > 0]/scale[scale > 0]).max(initial=0.0)
+
+
+def _sizes(resultants):
+    """Axial force, lateral force and moment whatever their angle, torque: (cut, 4)"""
+    n, q, m, t, q_90, m_90 = resultants.T
+    return np.stack([abs(n), np.hypot(q, q_90), np.hypot(m, m_90), abs(t)], axis=1)

@@ -24,6 +24,7 @@ module axijoint_analysis_static
    use axijoint_analysis_error_plastic_errors, only : estimate_plastic_errors
    use axijoint_analysis_error_stiffer_joints, only : compare_stiffer
    use axijoint_analysis_error_yielding_errors, only : estimate_yielding_errors
+   use axijoint_analysis_error_cut_errors, only : find_held_on_cuts
    use axijoint_analysis_fine_difference, only : difference_type, new_difference
    use axijoint_analysis_fine_mesh_error, only : mesh_error_type, new_mesh_error
    use axijoint_assembly_loading, only : new_loading
@@ -339,10 +340,11 @@ contains
       call timer%push(phase_joints)
       if (estimates) then
          call new_difference(size(results%displacement, 2), size(structure%joint_points), &
-            size(structure%modes), difference)
+            size(structure%modes), size(structure%cuts) > 0, difference)
          call solve_displacements(structure, model, history%loading, results%displacement, &
             results%solves, error, difference=difference)
          call new_mesh_error(difference, mesh_error)
+         call find_held_on_cuts(model, structure, mesh_error)
          call timer%pop(phase_factor, difference%factor_share)
       else
          call solve_displacements(structure, model, history%loading, results%displacement, &

@@ -111,6 +111,7 @@ contains
       end do
       associate (cuts => size(model%cuts), faces => size(model%supported_faces))
          bytes = bytes + 2.0_wp*array(whole, [cuts]) + array(real, [cuts]) + 2.0_wp*array(real, [n_resultants, cuts]) &
+            + merge(array(real, [4, cuts, 5]) + array(real, [5]), 0.0_wp, cuts > 0) &
             + array(whole, [faces]) + array(real, [n_resultants, faces])
       end associate
       if (rows%joint_points > 0) bytes = bytes + array(whole, [size(model%interfaces)])

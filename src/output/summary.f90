@@ -3,6 +3,7 @@ module axijoint_output_summary
    use axijoint_analysis_core_results, only : results_type, error_share_type, source_names
    use axijoint_analysis_core_series, only : series_type
    use axijoint_analysis_core_totals, only : count_states, n_unknowns
+   use axijoint_analysis_error_cut_errors, only : n_kinds, kind_names, sizes_on_cuts
    use axijoint_analysis_error_budget, only : sum_of_shares
    use axijoint_base_kinds, only : wp
    use axijoint_base_sha256, only : sha256
@@ -97,6 +98,7 @@ contains
          call put_pair(file, "left_out", left_out_text(results))
          call put_pair(file, "errors", errors_text(results))
          call put_pair(file, "point_errors", point_errors_json(model, results))
+         call put_pair(file, "cut_errors", cut_errors_json(model, results))
          call put_pair(file, "singular", singular_json(model, results))
          call put_pair(file, "error_seconds", error_seconds_text(results))
          call put_pair(file, "increment_seconds", json_number(results%increment_seconds))
@@ -232,7 +234,8 @@ contains
 
          json = '"'//trim(source_names(share%source))//'": {"energy": '//known_number(share%energy)// &
                 ', "displacement": '//known_number(share%displacement)//', "joint_stress": '// &
-                known_number(share%joint_stress)//', "points": '//known_number(share%points)//', "load": '// &
+                known_number(share%joint_stress)//', "points": '//known_number(share%points)// &
+                ', "cuts": '//known_number(share%cuts)//', "load": '// &
                 known_number(share%load)//'}, '
       end function share_text
 
@@ -265,6 +268,39 @@ contains
       end do
       json = json//"]"
    end function point_errors_json
+
+   !> What is estimated of the resultants on each cut
+   pure function cut_errors_json(model, results) result(json)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Results
+      type(results_type), intent(in) :: results
+      !> A JSON array
+      character(len=:), allocatable :: json
+
+      type(error_share_type) :: total
+      character(len=:), allocatable :: name
+      integer :: c, k
+
+      json = "[]"
+      if (.not. allocated(results%budget)) return
+      total = sum_of_shares(results%budget)
+      associate (sizes => sizes_on_cuts(results%cut_resultants))
+         json = "["
+         do c = 1, size(model%cuts)
+            if (c > 1) json = json//", "
+            json = json//'{"cut": '//json_number(model%cuts(c)%label)//', "z": '//json_number(model%cuts(c)%z)
+            do k = 1, n_kinds
+               name = trim(kind_names(k))
+               if (index(name, " ") > 0) name(index(name, " "):index(name, " ")) = "_"
+               json = json//', "'//name//'": '//json_number(sizes(k, c))//', "'//name//'_error": '// &
+                      known_number(total%on_cuts(k, c))
+            end do
+            json = json//"}"
+         end do
+      end associate
+      json = json//"]"
+   end function cut_errors_json
 
    !> Summary of a run that ended with an error; what is not known is null
    subroutine write_failure_summary(file, run, messages)

@@ -1,7 +1,8 @@
 """What each approximation of a run leaves of the error, as its summary says it: key `errors`."""
 from .markup import is_number, joined, number, running, table, tag
 
-COLUMNS = {"energy": "energy", "displacement": "displacement", "joint_stress": "joint stress", "points": "at POINTS", "load": "load"}
+COLUMNS = {"energy": "energy", "displacement": "displacement", "joint_stress": "joint stress", "points": "at POINTS", "cuts": "on CUTS",
+           "load": "load"}
 
 
 def said_of(job):
@@ -31,7 +32,7 @@ def errors(job):
             for source, share in shares.items()]
     return joined([*said, table("Left by each approximation",
                                 ["of", *(COLUMNS.get(key, words(key)) for key in keys), "seconds"], rows,
-                                "Estimates, relative; – is not known.", named_rows=True), *_at_points(job)])
+                                "Estimates, relative; – is not known.", named_rows=True), *_at_points(job), *_on_cuts(job)])
 
 
 def _at_points(job):
@@ -42,6 +43,16 @@ def _at_points(job):
     return [table("Displacements of points", ["point", *map(words, sources)], rows,
                   "Largest round the circle, and how far it may be off, in all and by source [length]; – is not known.",
                   named_rows=True)] if rows else []
+
+
+def _on_cuts(job):
+    """How far the resultants on each cut may be off, as a list of a table; an empty one without cuts."""
+    found = [cut for cut in job.summary.get("cut_errors") or [] if isinstance(cut, dict)]
+    keys = list(dict.fromkeys(key for cut in found for key in cut if key != "cut"))
+    rows = [[cut.get("cut"), *(_cell(cut.get(key)) for key in keys)] for cut in found]
+    return [table("Resultants on cuts", ["cut", *map(words, keys)], rows,
+                  "Whatever their angle, and how far each may be off, all sources together [length, force, force length]; "
+                  "– is not known.", named_rows=True)] if rows else []
 
 
 def line(job):

@@ -8,7 +8,7 @@ module axijoint_analysis_core_cut_planes
    use axijoint_model_request, only : cut_type
    implicit none
    private
-   public :: plane_type, new_planes_of_cuts, from_cut, is_above
+   public :: plane_type, new_planes_of_cuts, of_body, from_cut, is_above
 
    !> Nodes this near to a cut, over the extent of the mesh, are on it
    real(wp), parameter :: on_cut = 1.0e-9_wp

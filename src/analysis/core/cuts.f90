@@ -5,7 +5,7 @@ module axijoint_analysis_core_cuts
    use axijoint_analysis_core_fields, only : fields_type, n_resultants
    use axijoint_analysis_core_structure, only : structure_type
    use axijoint_assembly_loading, only : loading_type
-   use axijoint_assembly_solid_force, only : solid_force
+   use axijoint_assembly_solid_force, only : initial_state_type, solid_force
    use axijoint_base_kinds, only : wp
    use axijoint_fe_mode, only : mode_type
    use axijoint_joints_field, only : joint_field_type, stress_amplitude
@@ -13,7 +13,7 @@ module axijoint_analysis_core_cuts
    use axijoint_model_model, only : model_type
    implicit none
    private
-   public :: cut_resultants
+   public :: cut_resultants, with_resultants, resultants_of_stress, displaced_excess
 
 contains
 
@@ -36,76 +36,106 @@ contains
       !> Results; displacements are there already
       class(fields_type), intent(inout) :: results
 
-      real(wp), allocatable :: force(:, :, :), shares(:, :, :, :), springs(:, :, :), joints(:, :, :)
-      logical, allocatable :: crossed(:)
+      type(mode_type), allocatable :: modes(:)
+      real(wp), allocatable :: stress(:, :, :)
       integer, allocatable :: places(:)
       integer :: c, k, m
 
       allocate (results%cut_resultants(n_resultants, size(model%cuts)), source=0.0_wp)
       if (size(model%cuts) == 0) return
+      places = with_resultants(results%modes)
+      modes = results%modes(places)
+      allocate (stress(3, size(structure%joint_points), size(places)))
+      do m = 1, size(places)
+         associate (k => places(m))
+            stress(:, :, m) = stress_amplitude(structure%joint_points, modes(m), results%displacement(:, :, k), field, k)
+         end associate
+      end do
+      results%cut_resultants = resultants_of_stress(model, structure, loading%initial, places, modes, &
+         results%displacement(:, :, places), stress)
+      do c = 1, size(structure%cuts)
+         do k = 1, size(modes)
+            results%cut_resultants(:, c) = results%cut_resultants(:, c) &
+               - edge_load_excess(model, structure%cuts(c), modes(k), loading%case_factor) &
+               - mass_excess(model, structure%cuts(c), modes(k), loading%case_factor)
+         end do
+      end do
+   end subroutine cut_resultants
+
+   !> Places of the modes whose stresses have resultants
+   pure function with_resultants(modes) result(places)
+      !> All modes
+      type(mode_type), intent(in) :: modes(:)
+      !> The places
+      integer, allocatable :: places(:)
+
+      integer :: k
+
+      places = pack([(k, k=1, size(modes))], modes%harmonic <= 1)
+   end function with_resultants
+
+   !> Resultants on all cuts without what loads on elements there have to do with them
+   function resultants_of_stress(model, structure, initial, places, modes, displacement, stress) result(total)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Joints, springs and cuts
+      type(structure_type), intent(in) :: structure
+      !> Stress of the solids without strain
+      type(initial_state_type), intent(in) :: initial
+      !> Places of the modes that count among all, and these
+      integer, intent(in) :: places(:)
+      type(mode_type), intent(in) :: modes(:)
+      !> Displacements and stress of joints in these modes, amplitudes, shape (3, nodes, modes), (3, points, modes)
+      real(wp), intent(in) :: displacement(:, :, :), stress(:, :, :)
+      !> The resultants, shape (n_resultants, cuts)
+      real(wp) :: total(n_resultants, size(structure%cuts))
+
+      real(wp), allocatable :: force(:, :, :), shares(:, :, :, :)
+      logical, allocatable :: crossed(:)
+      integer :: c, m
+
       allocate (force(3, n_nodes(model%mesh), 1))
       allocate (shares(3, max_element_nodes, n_elements(model%mesh), 1))
       allocate (crossed(n_elements(model%mesh)), source=.false.)
       do c = 1, size(structure%cuts)
          crossed(structure%cuts(c)%crossed) = .true.
       end do
-      places = pack([(k, k=1, size(results%modes))], results%modes%harmonic <= 1)  ! others have no resultants
-      call displaced_excess(model, structure, places, field, results, springs, joints)
-      do m = 1, size(places)
-         k = places(m)
-         associate (mode => results%modes(k), case_factor => loading%case_factor)
-            call solid_force(model, loading%initial, k, [mode], results%displacement(:, :, k:k), force, &
-               counts=crossed, shares=shares)
-            do c = 1, size(structure%cuts)
-               associate (plane => structure%cuts(c), total => results%cut_resultants(:, c))
-                  total = total + crossed_resultants(model%mesh, plane, mode, shares(:, :, :, 1)) &
-                     - edge_load_excess(model, plane, mode, case_factor) &
-                     - springs(:, m, c) - joints(:, m, c) &
-                     - mass_excess(model, plane, mode, case_factor)
-               end associate
-            end do
-         end associate
+      total = -displaced_excess(model, structure, modes, displacement, stress)
+      do m = 1, size(modes)
+         call solid_force(model, initial, places(m), modes(m:m), displacement(:, :, m:m), force, counts=crossed, shares=shares)
+         do c = 1, size(structure%cuts)
+            total(:, c) = total(:, c) + crossed_resultants(model%mesh, structure%cuts(c), modes(m), shares(:, :, :, 1))
+         end do
       end do
-   end subroutine cut_resultants
+   end function resultants_of_stress
 
-   !> What nodal forces of springs and joints count too much, in all modes at once: shapes and directions are those of all
-   subroutine displaced_excess(model, structure, places, field, results, springs, joints)
+   !> What nodal forces of springs and joints above cuts count too much, in all modes together: shapes and directions are those
+   !> of all
+   function displaced_excess(model, structure, modes, displacement, stress) result(excess)
       !> The job
       type(model_type), intent(in) :: model
       !> Joints, springs and cuts
       type(structure_type), intent(in) :: structure
-      !> Places of the modes that count
-      integer, intent(in) :: places(:)
-      !> State of the joints
-      type(joint_field_type), intent(in) :: field
-      !> Results with displacements
-      class(fields_type), intent(in) :: results
-      !> Resultants, shape (n_resultants, these modes, cuts)
-      real(wp), allocatable, intent(out) :: springs(:, :, :), joints(:, :, :)
+      !> The modes
+      type(mode_type), intent(in) :: modes(:)
+      !> Displacements and stress of joints, amplitudes, shape (3, nodes, modes), (3, points, modes)
+      real(wp), intent(in) :: displacement(:, :, :), stress(:, :, :)
+      !> Resultants, shape (n_resultants, cuts)
+      real(wp) :: excess(n_resultants, size(structure%cuts))
 
-      type(mode_type) :: modes(size(places))
-      real(wp), allocatable :: stress(:, :, :), displacement(:, :, :)
       integer :: first(n_joints(model%mesh))
-      integer :: c, i, m
+      integer :: c, i
 
-      modes = results%modes(places)
-      displacement = results%displacement(:, :, places)
-      allocate (stress(3, size(structure%joint_points), size(places)))
-      do m = 1, size(places)
-         stress(:, :, m) = stress_amplitude(structure%joint_points, modes(m), displacement(:, :, m), field, places(m))
-      end do
       do i = size(structure%joint_points), 1, -1
          first(structure%joint_points(i)%joint) = i
       end do
-      allocate (springs(n_resultants, size(places), size(structure%cuts)))
-      allocate (joints, mold=springs)
       do c = 1, size(structure%cuts)
          associate (plane => structure%cuts(c)%plane_type)
-            springs(:, :, c) = spring_excess(model, plane, modes, displacement)
-            joints(:, :, c) = joint_excess(model, plane, modes, first, stress)
+            excess(:, c) = sum(spring_excess(model, plane, modes, displacement), 2) &
+               + sum(joint_excess(model, plane, modes, first, stress), 2)
          end associate
       end do
-   end subroutine displaced_excess
+   end function displaced_excess
 
    !> Resultants of the forces of the elements that a cut passes through, on their nodes above it
    pure function crossed_resultants(mesh, plane, mode, shares) result(total)

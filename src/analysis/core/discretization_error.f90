@@ -25,6 +25,9 @@ module axijoint_analysis_core_discretization_error
       real(wp) :: displacement = 0.0_wp
       !> Largest error of the displacement of each point with a name, shape (points) [length]; negative if not known
       real(wp), allocatable :: at_points(:)
+      !> Error of the axial force, lateral force, moment and torque on each cut, shape (4, cuts) [force, force length]; negative if
+      !> not known
+      real(wp), allocatable :: on_cuts(:, :)
       !> Largest error of a joint stress over the largest joint stress; negative without joints
       real(wp) :: joint_stress = -1.0_wp
       !> Largest joint stress of each mode, shape (modes), and what errors of joint stress are measured by, where it is

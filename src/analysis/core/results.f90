@@ -81,6 +81,10 @@ module axijoint_analysis_core_results
       real(wp) :: points = -1.0_wp
       !> The same of each by itself [length], shape (points)
       real(wp), allocatable :: at_points(:)
+      !> Of the resultants on cuts, over the largest of their kind
+      real(wp) :: cuts = -1.0_wp
+      !> The same of each by itself: axial force, lateral force, moment, torque, shape (4, cuts) [force, force length]
+      real(wp), allocatable :: on_cuts(:, :)
       !> Of a load given as a function of theta: root mean square that is left out
       real(wp) :: load = -1.0_wp
       !> Time that the estimate took [second]

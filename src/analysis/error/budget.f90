@@ -6,6 +6,7 @@ module axijoint_analysis_error_budget
    use axijoint_analysis_core_results, only : results_type, error_share_type, &
       source_discretization, source_harmonics, &
       source_planes, source_iteration, source_solver, source_sum
+   use axijoint_analysis_error_cut_errors, only : n_kinds, sizes_on_cuts, relative_on_cuts
    use axijoint_analysis_error_response_tail, only : response_tail, tail_of_points, is_cancelled
    use axijoint_base_kinds, only : wp
    use axijoint_base_text, only : to_text
@@ -29,6 +30,7 @@ contains
       !> Discretization, harmonics, planes, iteration, solver
       type(error_share_type), allocatable :: budget(:)
 
+      real(wp), allocatable :: sizes(:, :)
       logical :: yields
       integer :: i
 
@@ -41,12 +43,14 @@ contains
       budget(source_iteration) = error_share_type(source=source_iteration, &
          remedy='half the tolerance in INCREMENTS')
       if (yields) then
-         call take(results%joint_errors(2), size(results%point_size), budget(source_planes))
-         call take(results%joint_errors(1), size(results%point_size), budget(source_iteration))
+         call take(results%joint_errors(2), size(results%point_size), size(model%cuts), budget(source_planes))
+         call take(results%joint_errors(1), size(results%point_size), size(model%cuts), budget(source_iteration))
       else
          budget(source_planes:source_iteration)%displacement = 0.0_wp
          budget(source_planes)%at_points = spread(0.0_wp, 1, size(results%point_size))
          budget(source_iteration)%at_points = budget(source_planes)%at_points
+         budget(source_planes)%on_cuts = no_errors(size(model%cuts))
+         budget(source_iteration)%on_cuts = no_errors(size(model%cuts))
          if (size(results%joint_stress) > 0) budget(source_planes:source_iteration)%joint_stress = 0.0_wp
       end if
       budget(source_solver) = error_share_type(source=source_solver, &
@@ -54,9 +58,13 @@ contains
       budget(source_solver)%displacement = solver_error(results)
       budget(source_solver)%at_points = spread(solver_error(results)*results%discretization%largest_displacement, 1, &
          size(results%point_size))
+      sizes = sizes_on_cuts(results%cut_resultants)
+      budget(source_solver)%on_cuts = spread(solver_error(results)*[(maxval([0.0_wp, sizes(i, :)]), i=1, n_kinds)], 2, &
+         size(sizes, 2))
       do i = 1, size(budget)
          if (results%at_rest) budget(i)%at_points = min(0.0_wp, budget(i)%at_points)
          call compare_points(results%point_size, results%discretization%largest_displacement, budget(i))
+         budget(i)%cuts = relative_on_cuts(budget(i)%on_cuts, sizes)
       end do
       if (results%at_rest) budget%displacement = min(0.0_wp, budget%displacement)  ! nothing is left to be off
    end function new_budget
@@ -98,6 +106,7 @@ contains
       share%displacement = results%discretization%displacement
       share%joint_stress = results%discretization%joint_stress
       share%at_points = results%discretization%at_points
+      share%on_cuts = results%discretization%on_cuts
       share%seconds = results%discretization%seconds
       if (results%locks) then
          share%remedy = 'elements that do not lock'
@@ -149,9 +158,13 @@ contains
       if (size(model%harmonics) <= model%max_harmonic) share%remedy = 'harmonics: more of them in HARMONICS'
       share%displacement = 0.0_wp
       share%at_points = spread(0.0_wp, 1, size(results%point_size))
+      share%on_cuts = no_errors(size(model%cuts))  ! of loads' harmonics above M none has resultants
       if (size(results%joint_stress) > 0) share%joint_stress = 0.0_wp
-      if (yields) call take(results%joint_errors(3), size(results%point_size), share)
-      if (size(excited_in_vain(model, results)) > 0) call forget(share)
+      if (yields) call take(results%joint_errors(3), size(results%point_size), size(model%cuts), share)
+      if (size(excited_in_vain(model, results)) > 0) then
+         call forget(share)
+         share%on_cuts = -1.0_wp
+      end if
       share%load = 0.0_wp
       do k = 1, size(model%truncations)
          associate (cut => model%truncations(k))
@@ -159,8 +172,10 @@ contains
          end associate
       end do
       if (.not. share%load > 0.0_wp) return
+      if (yields) share%on_cuts = -1.0_wp  ! what joints make of loads above M has resultants
       if (any(abs(case_factor(model%left_out%case)) > 0.0_wp)) then  ! what others tell is no measure of these
          call forget(share)
+         share%on_cuts = -1.0_wp
          return
       end if
       if (share%load >= 1.0_wp) share%remedy = 'loads on parts of the circle in place of those at points'
@@ -258,11 +273,11 @@ contains
    end subroutine add_tail
 
    !> Take an estimate of the joints
-   pure subroutine take(error, n, share)
+   pure subroutine take(error, n, n_cuts, share)
       !> The estimate
       type(error_share_type), intent(in) :: error
-      !> Points with names
-      integer, intent(in) :: n
+      !> Points with names, and cuts
+      integer, intent(in) :: n, n_cuts
       !> The share
       type(error_share_type), intent(inout) :: share
 
@@ -270,8 +285,20 @@ contains
       share%joint_stress = error%joint_stress
       share%at_points = spread(-1.0_wp, 1, n)
       if (allocated(error%at_points)) share%at_points = error%at_points
+      share%on_cuts = no_errors(n_cuts) - 1.0_wp
+      if (allocated(error%on_cuts)) share%on_cuts = error%on_cuts
       share%seconds = error%seconds
    end subroutine take
+
+   !> Errors on cuts that are none
+   pure function no_errors(n) result(none)
+      !> How many cuts
+      integer, intent(in) :: n
+      !> Shape (n_kinds, cuts)
+      real(wp) :: none(n_kinds, n)
+
+      none = 0.0_wp
+   end function no_errors
 
    !> Largest error at a point with a name over the largest displacement of these
    pure subroutine compare_points(displacement, largest, share)
@@ -295,13 +322,20 @@ contains
       !> The sums
       type(error_share_type) :: total
 
-      integer :: i, p
+      integer :: i, k, p
 
       total%source = source_sum
       total%energy = known_sum((budget%energy))
       total%displacement = known_sum((budget%displacement))
       total%joint_stress = known_sum((budget%joint_stress))
       total%points = known_sum((budget%points))
+      total%cuts = known_sum((budget%cuts))
+      allocate (total%on_cuts, mold=budget(1)%on_cuts)
+      do p = 1, size(total%on_cuts, 2)
+         total%on_cuts(:, p) = -1.0_wp  ! a sum without one of them would be taken for all
+         if (all([(budget(i)%on_cuts(1, p), i=1, size(budget))] >= 0.0_wp)) &
+            total%on_cuts(:, p) = [(sum([(budget(i)%on_cuts(k, p), i=1, size(budget))]), k=1, n_kinds)]
+      end do
       total%at_points = [(known_sum([(budget(i)%at_points(p), i=1, size(budget))]), p=1, size(budget(1)%at_points))]
       total%seconds = sum(budget%seconds)
    end function sum_of_shares

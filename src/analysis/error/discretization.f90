@@ -6,6 +6,7 @@ module axijoint_analysis_error_discretization
    use axijoint_analysis_core_results, only : results_type
    use axijoint_analysis_core_structure, only : structure_type
    use axijoint_analysis_core_totals, only : largest, largest_vector, of_component
+   use axijoint_analysis_error_cut_errors, only : n_kinds, sizes_on_cuts
    use axijoint_analysis_error_largest_stress, only : largest_elastic_stress
    use axijoint_analysis_error_rounding, only : is_slight, rounding_energy, rounding_stress
    use axijoint_analysis_error_solid_error, only : solid_errors
@@ -70,11 +71,14 @@ contains
          estimate%largest_displacement = largest_vector(results%modes, total)
          estimate%displacement = -1.0_wp
          allocate (estimate%at_points(size(model%points)), source=-1.0_wp)
+         allocate (estimate%on_cuts(n_kinds, size(model%cuts)), source=-1.0_wp)
          estimate%joint_stress = -1.0_wp
          if (mesh_error%known) then
             estimate%displacement = ratio(largest_vector(results%modes, mesh_error%displacement), &
                                           max(estimate%largest_displacement, elastic_displacement))
             estimate%at_points = largest_error_at_points(model%points, results%modes, mesh_error%displacement)
+            if (allocated(mesh_error%on_cuts)) where (spread(mesh_error%known_on_cuts, 1, n_kinds)) &
+               estimate%on_cuts = sizes_on_cuts(mesh_error%on_cuts)
             if (results%at_rest) estimate%displacement = 0.0_wp
             estimate%joint_stress = joint_stress_error()
          end if

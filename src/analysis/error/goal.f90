@@ -9,7 +9,7 @@ module axijoint_analysis_error_goal
    use axijoint_model_model, only : model_type, method_newton
    use axijoint_model_modes, only : used_modes, greatest_divisor
    use axijoint_model_request, only : error_goal_type, refinement_type, goal_joints, &
-      goal_displacement, goal_energy, goal_points
+      goal_displacement, goal_energy, goal_points, goal_cuts
    implicit none
    private
    public :: goal_error, unknown_source, refine_further, room_for, mesh_misses
@@ -127,6 +127,8 @@ contains
          share_of = merge(share%energy, share%displacement, share%energy >= 0.0_wp)
       case (goal_points)
          share_of = share%points
+      case (goal_cuts)
+         share_of = share%cuts
       case default
          share_of = share%displacement
       end select
@@ -140,7 +142,7 @@ contains
       integer, intent(in) :: quantity
 
       ! orders of meshes at corners that make stresses infinite
-      real(wp), parameter :: order(4) = [1.0_wp, 1.5_wp, 0.75_wp, 1.5_wp]  ! JOINTS, DISPL, ENERGY, POINTS
+      real(wp), parameter :: order(5) = [1.0_wp, 1.5_wp, 0.75_wp, 1.5_wp, 1.0_wp]  ! JOINTS, DISPL, ENERGY, POINTS, CUTS
 
       select case (source)
       case (source_discretization)

@@ -6,9 +6,10 @@ module axijoint_analysis_error_held_error
       share_difference
    use axijoint_analysis_fine_joints, only : fine_excess
    use axijoint_analysis_fine_level, only : fine_load_type, new_fine_load
-   use axijoint_analysis_fine_mesh_error, only : mesh_error_type, new_mesh_error
+   use axijoint_analysis_fine_mesh, only : restrict
+   use axijoint_analysis_fine_mesh_error, only : mesh_error_type, new_mesh_error, error_over_difference
    use axijoint_assembly_factors, only : workspace_type, new_workspaces, own, hold_factor, release_factor
-   use axijoint_assembly_force, only : joint_jump
+   use axijoint_assembly_force, only : joint_jump, joint_force
    use axijoint_assembly_loading, only : loading_type
    use axijoint_base_kinds, only : wp
    use axijoint_joints_field, only : joint_field_type
@@ -127,6 +128,7 @@ contains
          associate (difference => under_way%held(i)%difference)
             call share_difference(structure%equations, difference)
             call take_error(structure, scene, under_way%states(i)%field, difference, errors(i))
+            call add_integrated(structure, under_way%points, under_way%held(i)%excess, under_way%states(i)%field%excess, errors(i))
          end associate
       end do
       deallocate (under_way%spaces, under_way%rooms)
@@ -152,6 +154,35 @@ contains
       end associate
       call leave_out_idle(structure, scene, field, error)
    end subroutine take_error
+
+   !> Add to the forces on nodes what the excess stress along fine joints gives more than that of the coarse ones
+   subroutine add_integrated(structure, points, fine, coarse, error)
+      !> The structure
+      type(structure_type), intent(in) :: structure
+      !> Points of fine joints with excess stress
+      type(model_joint_point_type), intent(in) :: points(:)
+      !> Excess stress there and at the points of the coarse joints, amplitudes, shape (3, points, modes)
+      real(wp), intent(in) :: fine(:, :, :), coarse(:, :, :)
+      !> Takes the forces, if they are asked for
+      type(mesh_error_type), intent(inout) :: error
+
+      real(wp), allocatable :: force(:, :), by_node(:, :), shared(:, :)
+      integer :: k
+
+      if (.not. allocated(error%acting)) return
+      allocate (shared(3, size(error%acting, 2)))
+      do k = 1, size(fine, 3)
+         associate (m => structure%modes(k)%harmonic)
+            if (m > 1) cycle
+            by_node = joint_force(points, m, fine(:, :, k), size(structure%fine%stiffness%place))
+            force = by_node
+            force(:, structure%fine%stiffness%place) = by_node
+            call restrict(structure%fine%parents, force, shared)
+            error%acting(:, :, k) = error%acting(:, :, k) + error_over_difference*(shared &
+               - joint_force(structure%condensed%points, m, coarse(:, :, k), size(shared, 2)))
+         end associate
+      end do
+   end subroutine add_integrated
 
    !> Leave motions out of the errors that nothing resists and no load acts on: their size is of no meaning. The errors have
    !> them, as joints of the fine mesh integrate the same stress by other points, which leaves a force along such a motion;
@@ -195,7 +226,8 @@ contains
 
       do i = 1, size(under_way%held)
          associate (held => under_way%held(i), state => under_way%states(i))
-            call new_difference(size(state%displacement, 2), size(structure%joint_points), size(structure%modes), held%difference)
+            call new_difference(size(state%displacement, 2), size(structure%joint_points), size(structure%modes), &
+               size(structure%cuts) > 0, held%difference)
             held%load = new_fine_load(structure%fine, structure%modes, state%loading)
             held%steps = steps_of(state%loading, held%excess)
          end associate

@@ -4,9 +4,10 @@ module axijoint_analysis_error_yielding_errors
    use omp_lib, only : omp_get_max_threads, omp_get_num_threads, omp_get_wtime
    use axijoint_analysis_core_fields, only : fields_type
    use axijoint_analysis_core_path, only : keeps_slip, slide_together
-   use axijoint_analysis_core_results, only : results_type
+   use axijoint_analysis_core_results, only : results_type, error_share_type
    use axijoint_analysis_core_structure, only : structure_type
    use axijoint_analysis_core_totals, only : largest_vector
+   use axijoint_analysis_error_cut_errors, only : change_on_cuts, find_held_on_cuts, sizes_on_cuts
    use axijoint_analysis_error_excess_effect, only : find_effects
    use axijoint_analysis_error_follower, only : follower_type, new_follower, follow_behind
    use axijoint_analysis_error_held_error, only : judged_state_type, held_errors_type, error_of_held, &
@@ -82,9 +83,27 @@ contains
          call take_share(structure, history, results, largest, changes%iteration, left%effect(:, :, :, 1), shares(1), model%points)
          call take_share(structure, history, results, largest, changes%planes, others(:, :, :, 1), shares(2), model%points)
          call take_share(structure, history, results, largest, changes%harmonics, others(:, :, :, 2), shares(3), model%points)
+         call take_cuts(changes%iteration, left%effect(:, :, :, 1), shares(1))
+         call take_cuts(changes%planes, others(:, :, :, 1), shares(2))
+         call take_cuts(changes%harmonics, others(:, :, :, 2), shares(3))
       end associate
       ! what slip has left is as wrong as the mesh was under the loads that are gone
       if (unloaded(history) .and. .not. mesh_error%follows_slip) mesh_error%known = .false.
+
+   contains
+
+      !> Errors of the resultants on cuts
+      subroutine take_cuts(change, effect, share)
+         !> A change of the joints, and the displacements that follow from it, shape (3, nodes, modes)
+         type(joint_change_type), intent(in) :: change
+         real(wp), intent(in) :: effect(:, :, :)
+         !> Takes the errors, if they are known
+         type(error_share_type), intent(inout) :: share
+
+         if (size(model%cuts) == 0 .or. .not. change%known) return
+         share%on_cuts = sizes_on_cuts(change_on_cuts(model, structure, change, effect))
+      end subroutine take_cuts
+
    end subroutine estimate_yielding_errors
 
    !> Find the state in which the joints are wholly balanced, the change to that and its effect, unless they are there
@@ -178,7 +197,7 @@ contains
       else  ! not in a region of one thread, in which other regions would begin with new threads
          call see_in_order()
       end if
-      call find_their_effects(structure, size(displacement, 2), answer, changes, mesh_error, effect)
+      call find_their_effects(model, structure, size(displacement, 2), answer, changes, mesh_error, effect)
       mesh_error%seconds = mesh_error%seconds + answer%seconds + looked_back
       call share_time(omp_get_wtime() - seconds, mesh_error%seconds, changes%planes%seconds, changes%harmonics%seconds)
 
@@ -258,7 +277,9 @@ contains
    end subroutine find_other_changes
 
    !> What planes, harmonics and the answer of the joints to the mesh do to the displacements, each factor read once for all three
-   subroutine find_their_effects(structure, n_nodes, answer, changes, mesh_error, effect)
+   subroutine find_their_effects(model, structure, n_nodes, answer, changes, mesh_error, effect)
+      !> The job
+      type(model_type), intent(in) :: model
       !> The structure
       type(structure_type), intent(inout) :: structure
       !> Nodes
@@ -283,7 +304,11 @@ contains
       changes%planes = all(1)
       changes%harmonics = all(2)
       answer = all(3)
+      call find_held_on_cuts(model, structure, mesh_error)
+      if (.not. answer%known .and. allocated(mesh_error%on_cuts)) deallocate (mesh_error%on_cuts)
       if (.not. answered) return
+      if (allocated(mesh_error%on_cuts)) mesh_error%on_cuts = mesh_error%on_cuts &
+         + change_on_cuts(model, structure, answer, effect(:, :, :, 3))
       mesh_error%known = mesh_error%known .and. answer%known
       call add_answer(structure, answer, effect(:, :, :, 3), mesh_error)
    end subroutine find_their_effects

@@ -3,7 +3,7 @@
 !> solution leaves, and what follows from that on the coarse mesh, whose factor is at hand, in steps
 !> that each go as far as the energy falls
 module axijoint_analysis_fine_difference
-   use axijoint_analysis_fine_conditions, only : hold, take_reactions
+   use axijoint_analysis_fine_conditions, only : conditions_type, hold, take_reactions
    use axijoint_analysis_fine_level, only : most_fine, fine_level_type, fine_load_type
    use axijoint_analysis_fine_mesh, only : prolong, restrict
    use axijoint_analysis_fine_smoother, only : factor_blocks, solve_blocks
@@ -11,6 +11,7 @@ module axijoint_analysis_fine_difference
    use axijoint_assembly_force, only : joint_force, joint_jump
    use axijoint_assembly_loading, only : add_external, still_force
    use axijoint_assembly_product_stiffness, only : stiffness_product
+   use axijoint_assembly_support, only : add_support_force
    use axijoint_base_kinds, only : wp, i8
    use axijoint_linalg_lapack, only : daxpy, ddot
    use axijoint_model_joint_points, only : model_joint_point_type
@@ -40,6 +41,9 @@ module axijoint_analysis_fine_difference
       real(wp), allocatable :: jump(:, :, :)
       !> Energy of the whole of it, shape (modes)
       real(wp), allocatable :: energy(:)
+      !> Forces of what holds it, supports and springs, shared by the nodes of the coarse mesh, shape (3, nodes, modes); of
+      !> harmonics 0 and 1 alone, which have resultants. Not allocated if nobody asks
+      real(wp), allocatable :: holding(:, :, :)
       !> Whether what was found is made of numbers, shape (modes)
       logical, allocatable :: known(:)
       !> Time of all threads [second], and share of the time of the solution that went into
@@ -63,14 +67,17 @@ module axijoint_analysis_fine_difference
 contains
 
    !> No difference
-   subroutine new_difference(n_nodes, n_points, n_modes, difference)
+   subroutine new_difference(n_nodes, n_points, n_modes, reacts, difference)
       !> Nodes, joint points, modes
       integer, intent(in) :: n_nodes, n_points, n_modes
+      !> Whether forces of what holds it are asked for
+      logical, intent(in) :: reacts
       !> The difference
       type(difference_type), intent(out) :: difference
 
       allocate (difference%displacement(3, n_nodes, n_modes), source=0.0_wp)
       allocate (difference%jump(3, n_points, n_modes), source=0.0_wp)
+      if (reacts) allocate (difference%holding(3, n_nodes, n_modes), source=0.0_wp)
       allocate (difference%energy(n_modes), source=0.0_wp)
       allocate (difference%known(n_modes), source=.true.)
    end subroutine new_difference
@@ -85,6 +92,8 @@ contains
       associate (displacement => difference%displacement, jump => difference%jump)
          call equations%team%gather(displacement, size(displacement, kind=i8), equations%last_mode)
          call equations%team%gather(jump, size(jump, kind=i8), equations%last_mode)
+         if (allocated(difference%holding)) call equations%team%gather(difference%holding, &
+            size(difference%holding, kind=i8), equations%last_mode)
          call equations%team%gather(difference%energy, size(difference%energy, kind=i8), equations%last_mode)
       end associate
       difference%known = equations%team%all_of(all(difference%known))
@@ -232,6 +241,8 @@ contains
                call see_change(level, of_blocks, room%u, size(difference%displacement, 2), room%external, jump)
                if (step > steps .or. is_small(room%external, jump, difference, k)) then
                   call add_change(room%external, jump, 0.5_wp*of_blocks*work(room%u, force), k, difference)
+                  if (allocated(difference%holding) .and. equations%modes(k)%harmonic <= 1) call add_springs(level, &
+                     equations%modes(k)%harmonic, of_blocks, room%u, difference%holding(:, :, k))
                   exit
                end if
             end if
@@ -348,8 +359,59 @@ contains
       small = is_small(room%external, jump, difference, k)
       call add_change(room%external, jump, 0.5_wp*length**2*energy, k, difference)
       call daxpy(size(room%force), -length, room%pull(:, :, i), 1, room%force, 1)
-      call take_reactions(level%conditions(equations%systems(equations%system(k))%class), room%force)
+      associate (conditions => level%conditions(equations%systems(equations%system(k))%class))
+         call take_reactions(conditions, room%force)
+         if (.not. allocated(difference%holding) .or. equations%modes(k)%harmonic > 1) return
+         call add_reactions(level, conditions, length, room%pull(:, :, i), room%u, difference%holding(:, :, k))
+         call add_springs(level, equations%modes(k)%harmonic, length, room%way(:, :, i), difference%holding(:, :, k))
+      end associate
    end subroutine go
+
+   !> Add what forces that displacements take put on what holds these, shared by the nodes of the coarse mesh
+   subroutine add_reactions(level, conditions, length, pull, free, reaction)
+      !> The fine level
+      type(fine_level_type), intent(in) :: level
+      !> What is held
+      type(conditions_type), intent(in) :: conditions
+      !> Factor on the forces, and these, shape (3, fine nodes)
+      real(wp), intent(in) :: length, pull(:, :)
+      !> Room, same shape
+      real(wp), intent(inout) :: free(:, :)
+      !> The reactions, shape (3, nodes)
+      real(wp), intent(inout) :: reaction(:, :)
+
+      real(wp) :: coarse(3, size(reaction, 2))
+
+      free = pull
+      call take_reactions(conditions, free)
+      free = length*(pull - free)
+      call restrict(level%parents, free, coarse)
+      reaction = reaction + coarse
+   end subroutine add_reactions
+
+   !> Add what springs push back with
+   subroutine add_springs(level, harmonic, length, d, force)
+      !> The fine level
+      type(fine_level_type), intent(in) :: level
+      !> Harmonic m
+      integer, intent(in) :: harmonic
+      !> How far, and the way, shape (3, fine nodes)
+      real(wp), intent(in) :: length, d(:, :)
+      !> The forces, shape (3, nodes)
+      real(wp), intent(inout) :: force(:, :)
+
+      real(wp), allocatable :: pushed(:, :), by_place(:, :)
+      real(wp) :: coarse(3, size(force, 2))
+
+      if (size(level%support_points) == 0) return
+      allocate (pushed, mold=d)
+      allocate (by_place, mold=d)
+      pushed = 0.0_wp
+      call add_support_force(level%support_points, harmonic, length*d(:, level%stiffness%place), pushed)
+      by_place(:, level%stiffness%place) = pushed
+      call restrict(level%parents, by_place, coarse)
+      force = force - coarse
+   end subroutine add_springs
 
    !> Whether none is infinite or not a number
    pure logical function are_numbers(values)

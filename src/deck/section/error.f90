@@ -8,13 +8,14 @@ module axijoint_deck_section_error
       field_method
    use axijoint_deck_section_groups, only : keyword_groups
    use axijoint_deck_section_increments, only : keyword_increments, field_tolerance
+   use axijoint_deck_section_cuts, only : keyword_cuts
    use axijoint_deck_section_points, only : keyword_points
    use axijoint_deck_text_entry, only : integer_of, real_of, card_fault, field_fault
    use axijoint_deck_text_field, only : integer_field, real_field, word_field, described
    use axijoint_deck_text_sections, only : sections_type, table_of
    use axijoint_deck_text_table, only : table_type
    use axijoint_model_model, only : method_newton
-   use axijoint_model_request, only : refinement_type, goal_names, goal_displacement, goal_points, &
+   use axijoint_model_request, only : refinement_type, goal_names, goal_displacement, goal_points, goal_cuts, &
       division_names, division_graded
    implicit none
    private
@@ -43,7 +44,7 @@ contains
                     limits='0 < … ≤ 100'), &
           described(word_field('the quantity', 11, 20, goal_names, goal_displacement), &
                     'of what: JOINTS (joint stress), DISPL (displacements), ENERGY (stresses '// &
-                    'in the energy norm), POINTS (displacements at points of POINTS)'), &
+                    'in the energy norm), POINTS (displacements at points of POINTS), CUTS (resultants on CUTS)'), &
           integer_field('the most rounds', 21, 25, 1, 99, default=8), &
           described(integer_field('the most unknowns', 26, 35, 1, 1000000000, default=1000000), &
                     'most unknowns in all: no round is begun that could have more'), &
@@ -58,7 +59,7 @@ contains
       type(deck_type), intent(inout), target :: deck
 
       type(card_type) :: card
-      type(table_type), pointer :: points
+      type(table_type), pointer :: points, cuts
 
       deck%model%error_goal%mesh_too = can_refine_mesh(deck%sections)
       deck%model%error_goal%remesh = can_remake_mesh(deck%sections)
@@ -81,6 +82,9 @@ contains
          points => table_of(deck%sections, keyword_points)
          if (goal%quantity == goal_points .and. points%n == 0) call field_fault(card, field_quantity, &
             'no point has a name', allowed='another quantity, or points in the section POINTS')
+         cuts => table_of(deck%sections, keyword_cuts)
+         if (goal%quantity == goal_cuts .and. cuts%n == 0) call field_fault(card, field_quantity, &
+            'there is no cut', allowed='another quantity, or cuts in the section CUTS')
       end associate
    end subroutine read_goal
 

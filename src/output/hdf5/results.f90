@@ -269,6 +269,14 @@ contains
             "Of the largest joint stress; (source), relative, negative if not known")
          call file%write("/errors/load", (budget%load), &
             "Of loads given as functions of theta; (source), relative, negative if not known")
+         if (size(results%cut_resultants, 2) > 0) then
+            call file%write("/errors/cuts", (budget%cuts), &
+               "Of resultants on cuts, over the largest of their kind; (source), relative, negative if not known")
+            call file%write("/errors/on_cuts", reshape([(budget(i)%on_cuts, i=1, size(budget))], &
+               [size(budget(1)%on_cuts, 1), size(results%cut_resultants, 2), size(budget)]), &
+               "Of axial force, lateral force, moment, torque, whatever their angle, on each cut, as in /cuts; "// &
+               "(4, cut, source) [force, force length], negative if not known")
+         end if
          if (size(results%point_size) == 0) return
          call file%write("/errors/points", (budget%points), &
             "Of displacements at points with names, over the largest of these; (source), relative, negative if not known")

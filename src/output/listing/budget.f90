@@ -3,6 +3,7 @@
 module axijoint_output_listing_budget
    use axijoint_analysis_core_results, only : results_type, error_share_type, source_names, source_solver
    use axijoint_analysis_error_budget, only : sum_of_shares, is_known
+   use axijoint_analysis_error_cut_errors, only : n_kinds, sizes_on_cuts
    use axijoint_base_kinds, only : wp
    use axijoint_base_text, only : to_text, fine_percent
    use axijoint_model_mesh, only : n_joints
@@ -46,24 +47,72 @@ contains
       !> Results
       type(results_type), intent(in) :: results
 
-      logical :: points
+      logical :: points, cuts
       integer :: i
 
       if (.not. allocated(results%budget)) return
       call write_result_heading(file, "ERROR BUDGET (estimates; relative, - not known)", &
          results%converged)
       points = size(model%points) > 0
+      cuts = size(model%cuts) > 0
       call file%put("  left by           energy norm   displacement   joint stress"// &
-         repeat("      at POINTS", merge(1, 0, points))//"           load")
+         repeat("      at POINTS", merge(1, 0, points))//repeat("        on CUTS", merge(1, 0, cuts))//"           load")
       do i = 1, size(results%budget)
-         call file%put(share_line(results%budget(i), points))
+         call file%put(share_line(results%budget(i), points, cuts))
       end do
-      call file%put(share_line(sum_of_shares(results%budget), points))
+      call file%put(share_line(sum_of_shares(results%budget), points, cuts))
       call write_sentence(file, "  ", sum_text(results))
       if (len(remedy_text(results%budget)) > 0) &
          call file%put("  about half with "//remedy_text(results%budget))
-      if (size(model%points) > 0) call write_points(file, model, results)
+      if (points) call write_points(file, model, results)
+      if (cuts) call write_cut_errors(file, model, results)
    end subroutine write_budget
+
+   !> Errors of the resultants on cuts, and the largest of each kind by what leaves them
+   subroutine write_cut_errors(file, model, results)
+      !> The listing
+      class(text_file_type), intent(inout) :: file
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Results with a budget
+      type(results_type), intent(in) :: results
+
+      character(len=20) :: place
+      type(error_share_type) :: total
+      integer :: c, i
+
+      total = sum_of_shares(results%budget)
+      call write_result_heading(file, "ERRORS OF RESULTANTS ON CUTS (estimates, whatever the angle; - not known)", &
+         results%converged)
+      call file%put("     cut           z    axial force          shear         moment         torque")
+      do c = 1, size(model%cuts)
+         write (place, "(i8, es12.4)") model%cuts(c)%label, model%cuts(c)%z
+         call file%put(place//kinds(total%on_cuts(:, c)))
+      end do
+      call file%put("  the largest, left by")
+      do i = 1, size(results%budget)
+         call file%put("  "//source_names(results%budget(i)%source)//"    "//kinds(maxval(results%budget(i)%on_cuts, 2)))
+      end do
+      call file%put("  of the largest"//"    "//kinds(maxval(sizes_on_cuts(results%cut_resultants), 2)))
+
+   contains
+
+      !> A value of each kind
+      pure function kinds(values) result(text)
+         !> The values
+         real(wp), intent(in) :: values(n_kinds)
+         !> Columns
+         character(len=:), allocatable :: text
+
+         integer :: k
+
+         text = ""
+         do k = 1, n_kinds
+            text = text//known_column(values(k), wide)
+         end do
+      end function kinds
+
+   end subroutine write_cut_errors
 
    !> Errors of the displacements of points with names
    subroutine write_points(file, model, results)
@@ -117,11 +166,11 @@ contains
    end subroutine write_points
 
    !> A share as a line of the table
-   pure function share_line(share, points) result(line)
+   pure function share_line(share, points, cuts) result(line)
       !> The share
       type(error_share_type), intent(in) :: share
-      !> Whether there are points with names
-      logical, intent(in) :: points
+      !> Whether there are points with names, and cuts
+      logical, intent(in) :: points, cuts
       !> The line
       character(len=:), allocatable :: line
 
@@ -129,6 +178,7 @@ contains
          known_column(share%displacement, wide)// &
              known_column(share%joint_stress, wide)
       if (points) line = line//known_column(share%points, wide)
+      if (cuts) line = line//known_column(share%cuts, wide)
       line = line//known_column(share%load, wide)
    end function share_line
 
@@ -279,6 +329,12 @@ contains
          text = "displacement "//quantity_text(budget, (budget%displacement), total%displacement, at_least)
          if (total%points >= 0.0_wp) &
             text = text//"; at POINTS "//quantity_text(budget, (budget%points), total%points, at_least)
+         if (total%cuts >= 0.0_wp) then
+            text = text//"; resultants on CUTS "//quantity_text(budget, (budget%cuts), total%cuts, at_least)
+            associate (known => count(total%on_cuts(1, :) >= 0.0_wp), all => size(total%on_cuts, 2))
+               if (known < all .and. known > 0) text = text//" ("//to_text(known)//" of "//to_text(all)//" cuts)"
+            end associate
+         end if
          if (total%joint_stress < 0.0_wp) return
          text = text//"; joint stress "//quantity_text(budget, (budget%joint_stress), &
             total%joint_stress, in_any_case .or. results%torn)
