@@ -189,7 +189,20 @@ def turning_slip(program, folder):
     return faults
 
 
+def motion_of_a_mechanism(program, folder):
+    """A disc that is overturned tilts, and one that slides slides, wherever the load points"""
+    faults = []
+    for name, text, word in (('overturned', scenes.overturn(1.01), 'tilts'), ('slid', scenes.slide(1.01, scenes.RESULTANT), 'slides sideways')):
+        for angle in (0, 30, 45, 90, 200):
+            turned = re.sub(r'^(2, (?:LATERAL|MOMENT), \S+)$', rf'\1, {angle}', text, flags=re.MULTILINE)
+            messages = ' '.join(summary_of(program, folder, name, turned, code=4)['messages'])
+            found = re.search(r'the part with node \d+ ([a-z ]+) \(harmonic (\d+)', messages)
+            faults += expected(f'{name} at {angle} degrees', (word, '1'), found and found.groups())
+    return faults
+
+
 def tests(program):
     """The tests of this module"""
     return [Test(f'turned: {function.__name__.replace("_", " ")}', lambda folder, function=function: function(program, folder))
-            for function in (elastic_joints, short_waves, last_residual, unit_of_length, point_on_two_bodies, other_results, turning_slip)]
+            for function in (elastic_joints, short_waves, last_residual, unit_of_length, point_on_two_bodies, other_results, turning_slip,
+                             motion_of_a_mechanism)]

@@ -3,7 +3,7 @@ module axijoint_analysis_core_motion
    use axijoint_assembly_rigid_motion, only : solid_parts
    use axijoint_base_kinds, only : wp
    use axijoint_base_text, only : to_text
-   use axijoint_fe_mode, only : mode_type, is_torsion, mode_name
+   use axijoint_fe_mode, only : mode_type, family_symmetric, family_antisymmetric, is_torsion, mode_name
    use axijoint_model_mesh, only : mesh_type
    implicit none
    private
@@ -40,33 +40,36 @@ contains
       character(len=:), allocatable :: text
 
       type(motion_type) :: largest
+      real(wp), allocatable :: turned(:, :, :)
       logical, allocatable :: moves(:)
       integer, allocatable :: part(:), nodes(:)
       integer :: p, k, place(3)
 
+      turned = displacement
+      call turn_sideways(modes, turned)
       call solid_parts(mesh, part)
       do p = 1, maxval(part)
          nodes = pack([(k, k=1, size(part))], part == p)
          do k = 1, size(modes)
-            call compare(p, k, mesh%coordinates(:, nodes), modes(k), displacement(:, nodes, k), &
+            call compare(p, k, mesh%coordinates(:, nodes), modes(k), turned(:, nodes, k), &
                largest)
          end do
       end do
-      if (largest%size > rigid_share*maxval(abs(displacement)) .and. modes(max(1, largest%mode))%harmonic == 1) then
-         moves = moves_with(mesh%coordinates, part, displacement(:, :, largest%mode), largest)
+      if (largest%size > rigid_share*maxval(abs(turned)) .and. modes(max(1, largest%mode))%harmonic == 1) then
+         moves = moves_with(mesh%coordinates, part, turned(:, :, largest%mode), largest)
          if (count(moves) > 1) then
             nodes = pack([(k, k=1, size(part))], moves(part))
             k = largest%mode
             largest = motion_type()
-            call compare(0, k, mesh%coordinates(:, nodes), modes(k), displacement(:, nodes, k), largest)
+            call compare(0, k, mesh%coordinates(:, nodes), modes(k), turned(:, nodes, k), largest)
             text = 'the parts with nodes '//nodes_of(mesh, part, moves)//' '// &
                trim(merge('tilt          ', 'slide sideways', largest%name == tilting))//' as one (harmonic '// &
                mode_name(modes(k))//')'
             return
          end if
       end if
-      place = maxloc(abs(displacement))
-      if (largest%size > rigid_share*maxval(abs(displacement))) then
+      place = maxloc(abs(turned))
+      if (largest%size > rigid_share*maxval(abs(turned))) then
          place(2) = findloc(part, largest%part, 1)
          place(3) = largest%mode
       else
@@ -75,6 +78,34 @@ contains
       text = 'the part with node '//to_text(mesh%node_label(place(2)))//' '//trim(largest%name)// &
          ' (harmonic '//mode_name(modes(place(3)))//')'
    end function motion_text
+
+   !> Turn both families of harmonic 1 to the direction of the motion, which one of them has alone then: what moves a part most
+   !> does not hang on where theta = 0 is
+   pure subroutine turn_sideways(modes, displacement)
+      !> The modes
+      type(mode_type), intent(in) :: modes(:)
+      !> Displacements, shape (3, nodes, modes)
+      real(wp), intent(inout) :: displacement(:, :, :)
+
+      real(wp), allocatable :: along(:, :)
+      real(wp) :: scale, angle
+      integer :: s, a
+
+      s = findloc(modes%harmonic == 1 .and. modes%family == family_symmetric, .true., 1)
+      a = findloc(modes%harmonic == 1 .and. modes%family == family_antisymmetric, .true., 1)
+      if (s == 0 .or. a == 0) return
+      associate (x => displacement(:, :, s), y => displacement(:, :, a))
+         ! the antisymmetric amplitude is the symmetric one of theta - 90 degrees: along an angle there is cos x + sin y, whose
+         ! square over all nodes is largest here; nearest to the family that has more, the angle keeps its name
+         scale = max(maxval(abs(x)), maxval(abs(y)))
+         if (.not. scale > 0.0_wp) return
+         angle = 0.5_wp*atan2(2.0_wp*sum((x/scale)*(y/scale)), sum((x/scale)**2) - sum((y/scale)**2))
+         if (abs(angle) > 0.25_wp*acos(-1.0_wp)) angle = angle - sign(0.5_wp*acos(-1.0_wp), angle)
+         along = cos(angle)*x + sin(angle)*y
+         y = cos(angle)*y - sin(angle)*x
+         x = along
+      end associate
+   end subroutine turn_sideways
 
    !> Parts that move with the one that moves most as one body does, sideways and tilting
    function moves_with(x, part, displacement, largest) result(moves)
