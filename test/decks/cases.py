@@ -101,8 +101,20 @@ def not_combined(program, folder):
     return message_faults(wanted, program.run('check', write(folder, 'job.dat', deck + 'END\n')))[0]
 
 
+def increments_of_cases(program, folder):
+    """The listing says which load case each increment is of, and the factor that this case has come to; names of cases are kept"""
+    deck = RING.format(patch='-20, 30', output='0') + LOADS.format(turned=0) + 'COMBINE\n1, 4, 1.0, 2, 1.0\n'
+    run(program, folder, 'steps', deck + 'INCREMENTS\n1, , , 4\n0.5, , , 2\n-0.25, , , 4\n0.5\nEND\n')
+    lines = read_text(os.path.join(folder, 'steps.lis')).split('LOAD INCREMENTS\n')[1].splitlines()[2:7]
+    found = [line.split()[-2:] for line in lines]
+    faults = expected('of case, its total', [['4', '1.0000000E+00'], ['2', '5.0000000E-01'], ['4', '7.5000000E-01'], ['all', '-']], found[1:])
+    run(program, folder, 'plain', deck + 'INCREMENTS\n1\nEND\n')
+    return faults + expected('of all cases', False, 'of case' in read_text(os.path.join(folder, 'plain.lis')))
+
+
 def tests(program):
     """The tests of this module"""
     return [Test('load cases: combinations', lambda folder: combinations_add_up(program, folder)),
             Test('load cases: turned load', lambda folder: turned_load(program, folder)),
-            Test('load cases: not combined', lambda folder: not_combined(program, folder))]
+            Test('load cases: not combined', lambda folder: not_combined(program, folder)),
+            Test('load cases: increments', lambda folder: increments_of_cases(program, folder))]

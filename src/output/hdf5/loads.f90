@@ -21,7 +21,16 @@ contains
       !> Results
       type(results_type), intent(in) :: results
 
+      character(len=:), allocatable :: names
+      integer :: k
+
+      names = ""
+      do k = 1, size(model%load_cases)
+         if (k > 1) names = names//new_line("a")
+         names = names//trim(model%load_cases(k)%name)
+      end do
       call file%group("/loads")
+      call file%attribute("/loads", "case_names", names)
       call file%write("/loads/case_label", (model%load_cases%label), &
          "Number of the load case; (case)")
       call file%write("/loads/case_factor", case_factor(model, results%combination), &

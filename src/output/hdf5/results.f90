@@ -367,6 +367,8 @@ contains
       call file%write("/increments/factor", (model%increments%factor), "Added factor; (increment)")
       call file%write("/increments/tolerance", (model%increments%tolerance), &
          "Tolerance on the residual ratio; (increment)")
+      call file%write("/increments/case", (model%increments%case), &
+         "Load case (index) that the factor belongs to, 0 for all; (increment)")
       call file%write("/increments/max_iterations", (model%increments%max_iterations), &
          "Most iterations; (increment)")
       call file%group("/convergence")

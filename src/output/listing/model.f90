@@ -253,21 +253,57 @@ contains
       !> The job
       type(model_type), intent(in) :: model
 
+      character(len=*), parameter :: gap = "   "
       character(len=10) :: label
       character(len=12) :: iterations
+      character(len=:), allocatable :: heading, text
+      logical :: of_cases, steered
       integer :: i
 
+      of_cases = any(model%increments%case > 0)
+      steered = any(model%increments%steered)
       call write_heading(file, "LOAD INCREMENTS")
-      call file%put(" increment         factor   total factor      tolerance  iterations")
+      heading = " increment         factor   total factor      tolerance  iterations"
+      if (of_cases) then
+         call file%put("  (total factor: of all load cases together, the load factor of the tables below)")
+         heading = heading//"   of case      its total"
+      end if
+      if (steered) heading = heading//gap//"given"
+      call file%put(heading)
       do i = 1, size(model%increments)
          associate (increment => model%increments(i))
             write (label, format_label) i
             write (iterations, format_iterations) increment%max_iterations
-            call file%put(label//columns([increment%factor, sum(model%increments(:i)%factor), &
-               increment%tolerance], wide)//iterations)
+            text = label//columns([increment%factor, sum(model%increments(:i)%factor), increment%tolerance], wide)//iterations
+            if (of_cases) text = text//case_of(model, i)
+            if (steered) text = text//gap//trim(merge("displacement", "load        ", increment%steered))
+            call file%put(text)
          end associate
       end do
    end subroutine write_increments
+
+   !> Columns of the load case of an increment
+   pure function case_of(model, i) result(text)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> The increment
+      integer, intent(in) :: i
+      !> Its number and factor at the end of the increment; of an increment of all cases, which may differ then, no factor
+      character(len=:), allocatable :: text
+
+      character(len=10) :: label
+      integer :: case
+
+      case = model%increments(i)%case
+      if (case == 0) then
+         text = repeat(" ", 7)//"all"//repeat(" ", 14)//"-"
+      else
+         write (label, format_label) model%load_cases(case)%label
+         associate (before => model%increments(:i))
+            text = label//columns([sum(before%factor, mask=before%case == case .or. before%case == 0)], wide)
+         end associate
+      end if
+   end function case_of
 
    !> A line of a word and its value
    subroutine write_fact(file, word, value)
