@@ -100,6 +100,24 @@ class Figures(unittest.TestCase):
     def test_chimney(self):
         self.check("chimney.2")
 
+    def test_what_dissipates_and_where_there_is_a_profile(self):
+        """Plastic strain is no slip; a profile needs several cuts, not several increments"""
+        with tempfile.TemporaryDirectory() as folder:
+            jobs.run(folder, "beyond", yielding_decks.pile(2, 0, (1.0, 1.0)))
+            jobs.run(folder, "first", jobs.input_deck("first", "CUTS", "1, -0.25, 1"))
+            jobs.run(folder, "cuts", jobs.input_deck("first", "CUTS", "1, -0.4, 1, 0.9, 5", "INCREMENTS", "0.5", "0.5"))
+            beyond, first, cuts = (axijoint.open(f"{folder}/{name}.h5") for name in ("beyond", "first", "cuts"))
+            for result, words in ((beyond, "dissipated by plastic strain"), (cuts, "dissipated by slip")):
+                (_, figure), = plot.figures(result, ["energy"])
+                self.assertIn(words, [line.get_label() for line in figure.axes[0].lines])
+            tells = plot.KINDS["pile"].tells
+            self.assertEqual([tells(beyond), tells(first), tells(cuts)], [False, False, True])
+            jobs.run(folder, "one", jobs.input_deck("first", "CUTS", "1, -0.4, 1, 0.9, 5"))
+            self.assertTrue(tells(axijoint.open(f"{folder}/one.h5")))
+            (_, figure), = plot.figures(cuts, ["mesh"])
+            words = [text.get_text() for text in figure.axes[0].get_legend().get_texts()]
+            self.assertIn("resultants of the loads:\n(moments about the origin)", words)
+
     def test_a_tower(self):
         """Far taller than wide: names of planes, and ticks, keep apart"""
         with tempfile.TemporaryDirectory() as folder:

@@ -156,7 +156,7 @@ KINDS = {
                    tables=lambda result, options: [("increments", result.increments)]),
     "pile": Kind("deflection, rotation, shear, moment, axial force by depth, from CUTS",
                  _soil("pile", pile.draw_profile), OF_PILES, each_angle=True,
-                 tells=lambda result: _several(result) and pile.has_cuts(result),
+                 tells=pile.has_profile,
                  tables=_of_pile(lambda result, options: [("pile", pile.profile_table(result, options))])),
     "py": Kind("p-y curves by depth", _soil("py", lambda *one: pile.draw_curves(*one, "py")), (*OF_PILES, "depths"),
                each_angle=True, tables=_of_pile(_soil_tables), tells=_has_pile),

@@ -248,5 +248,6 @@ def _applied(result, units):
     values = result.read("resultants/applied")
     words = [f"{name} {value:.4g} {unit}".rstrip() for name, value, unit in zip(names, values, of)
              if abs(value) > 1e-9*abs(values).max()]
-    return [Line2D([], [], ls="", label=word) for word in (["", "resultants of the loads:"] if words else [])
+    about = "\n(moments about the origin)" if any(word.startswith("moment") for word in words) else ""
+    return [Line2D([], [], ls="", label=word) for word in (["", f"resultants of the loads:{about}"] if words else [])
             + words]

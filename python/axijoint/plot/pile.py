@@ -6,6 +6,7 @@ from ..soil import NoShaftError, cuts_through, pile_of, soil_reactions
 from ..soil_joints import along_axis, sides_of
 from ..table import Table
 from . import style
+from .options import Options
 from .style import plt
 
 # Depths of curves, and increments of profiles, where the options do not say which
@@ -128,6 +129,11 @@ def draw_pisa(result, options):
 def has_cuts(result):
     """Whether the deck has CUTS."""
     return result.has("cuts/body") and len(result.read("cuts/body")) > 0
+
+
+def has_profile(result):
+    """Whether there are several cuts of the body whose profile is drawn: of one there is no curve."""
+    return has_cuts(result) and len(cuts_of(result, Options())[1]) > 1
 
 
 def cuts_of(result, options):

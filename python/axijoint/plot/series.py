@@ -71,6 +71,12 @@ def _numbers(axes, x, y, increments):
                       fontsize=6.5, color="0.3")
 
 
+def _dissipated_by(result):
+    """What dissipates: slip of joints, plastic strain of bodies that yield, or both."""
+    by = ["slip"]*bool(len(result.mesh.joint_label)) + ["plastic strain"]*result.has("yield")
+    return " ".join(["dissipated", *(["by", " and ".join(by)] if by else [])])
+
+
 @style.styled
 def draw_energy(result, options):
     """Work, energy and dissipation, and the residual and the iterations of each increment: a Figure."""
@@ -78,7 +84,7 @@ def draw_energy(result, options):
     figure, (left, right) = plt.subplots(1, 2, figsize=(style.TWO_COLUMNS, 2.9))
     rest = table["work"] - table["energy"] - table["dissipated"]
     curves = (("work", table["work"]), ("elastic energy", table["energy"]),
-              ("dissipated by slip", table["dissipated"]), ("work less both", rest))
+              (_dissipated_by(result), table["dissipated"]), ("work less both", rest))
     for k, (name, values) in enumerate(curves):
         left.plot(table["increment"], values, label=name, **style.curve(k))
     left.axhline(0, color="0.7", lw=0.5, zorder=0)
