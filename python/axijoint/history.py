@@ -100,13 +100,7 @@ class History:
 
         What body b exerts on body a; moments about the origin.
         """
-        mesh = self._result.mesh
-        joints = np.concatenate([one.joints for one in self._result.interfaces_of(wanted)])
-        part = self.joint_resultants[:, joints].copy()
-        height = mesh.coordinates[mesh.joint_nodes[joints, :2], 1].mean(axis=1)
-        part[..., 2] -= part[..., 1]*height
-        part[..., 5] -= part[..., 4]*height
-        return part.sum(axis=1)
+        return joint_sums(self._result, np.concatenate([one.joints for one in self._result.interfaces_of(wanted)]))
 
     @property
     def point_names(self):
@@ -135,6 +129,16 @@ class History:
         if name in labels:
             return labels.index(name)
         raise ValueError(f"there is no point {name!r}; there is {', '.join(names) or 'none'}")
+
+
+def joint_sums(result, joints):
+    """Sum of the resultants of some joints (index), moments about the origin: (increments, 6)."""
+    mesh = result.mesh
+    part = result.history.joint_resultants[:, joints].copy()
+    height = mesh.coordinates[mesh.joint_nodes[joints, :2], 1].mean(axis=1)
+    part[..., 2] -= part[..., 1]*height
+    part[..., 5] -= part[..., 4]*height
+    return part.sum(axis=1)
 
 
 def place_of(file, name, increment):

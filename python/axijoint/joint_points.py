@@ -108,6 +108,23 @@ class JointPoints:
         """Round the whole circle; angles ascend."""
         return self.part().with_mirror_image() if self.half else self.part()
 
+    def areas(self):
+        """Area of the joint that each point stands for, the whole circle round, (points)."""
+        mesh, rule = self._result.mesh, self._result.read("joint_materials/rule")[self._result.mesh.joint_material]
+        found = np.empty(len(self.owner))
+        for joint, first, place, weight in places(self.owner, rule):
+            nodes = mesh.joint_nodes[joint, SIDES[int(mesh.joint_size[joint])][0]]
+            value, slope = elements.line_functions(len(nodes), place)
+            length = np.linalg.norm(slope @ mesh.coordinates[nodes], axis=1)
+            found[first:first + len(place)] = 2*np.pi*(value @ mesh.coordinates[nodes, 0])*length*weight
+        return found
+
+    def shares(self, joints):
+        """Shares of the area of some joints (index) that stick, slip, and are open: (3)."""
+        chosen = np.isin(self.owner, joints)
+        area, state = self.areas()[chosen], self.around().state[:, chosen]
+        return np.array([area @ (state == k).mean(axis=0) for k in range(3)])/area.sum()
+
     def _field(self, theta, stress, jump, state):
         return JointField(theta, stress, jump, np.maximum(jump[..., 1] + self._gap, 0), state)
 
@@ -128,10 +145,8 @@ def jumps(mesh, owner, rule, displacement):
     owner: joint of each point; rule: that of each joint; displacement: amplitudes of the nodes, (modes, nodes, 3).
     """
     found = np.empty((len(displacement), len(owner), 3))
-    count = np.bincount(owner, minlength=len(mesh.joint_size))
-    for joint, (first, n) in enumerate(zip(np.cumsum(count) - count, count)):
-        place = np.linspace(-1, 1, n) if rule[joint] == LOBATTO else np.polynomial.legendre.leggauss(n)[0]
-        size = int(mesh.joint_size[joint])
+    for joint, first, place, _ in places(owner, rule):
+        size, n = int(mesh.joint_size[joint]), len(place)
         value, slope = elements.line_functions(size//2, place)
         here, there = (mesh.joint_nodes[joint, side] for side in SIDES[size])
         along = slope @ mesh.coordinates[here]
@@ -139,3 +154,18 @@ def jumps(mesh, owner, rule, displacement):
         u, v, w = np.einsum("pn,mnc->cmp", value, displacement[:, there] - displacement[:, here])
         found[:, first:first + n] = np.stack([cosine*u + sine*v, cosine*v - sine*u, w], -1)
     return found
+
+
+def places(owner, rule):
+    """Yield each joint, its first point, and places and weights of its points from -1 to 1.
+
+    owner: joint of each point; rule: that of each joint.
+    """
+    count = np.bincount(owner, minlength=len(rule))
+    for joint, (first, n) in enumerate(zip(np.cumsum(count) - count, count)):
+        if rule[joint] == LOBATTO:
+            place = np.linspace(-1, 1, n)
+            weight = np.array({2: [1, 1], 3: [1/3, 4/3, 1/3]}[int(n)])
+        else:
+            place, weight = np.polynomial.legendre.leggauss(n)
+        yield joint, first, place, weight

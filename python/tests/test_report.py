@@ -61,6 +61,48 @@ PRESSURES
 1, 36, 10.0, , A
 END
 """
+# A rigid disc that no tension holds, pressed by N = 100, then tilted by M = 50 towards 60 degrees: of a circle on springs
+# 0.6480 of the area stays pressed
+LIFTED = """TITLE
+A disc that lifts (kN, m, kPa)
+CONTROL
+   12   97
+MATERIALS
+1, 1E8, 0.2
+LAWS
+1, 1E5, 1E5, 1E5, 0.0, 45.0
+BLOCKS
+1, 1, 8, 6, 2
+0.0, 0.0, 1.0, 0.5
+2, 1, 8, 6, 1
+0.0, -0.2, 1.0, 0.0
+FACES
+1, 1, 0.0, 0.0, 1.0, 0.0
+2, 2, 0.0, 0.0, 1.0, 0.0
+3, 2, 0.0, -0.2, 1.0, -0.2
+4, 1, 0.0, 0.5, 1.0, 0.5
+INTERFACES
+1, 1, 2, , base
+FIXEDFACES
+3, 111
+CASE
+1, Weight
+RESULTANTS
+4, AXIAL, -100.0
+CASE
+2, Wind
+RESULTANTS
+4, MOMENT, -20.0, 60.0
+COMBINE
+1, 1, 1.0, 2, 1.25
+INCREMENTS
+1.0, , , 1
+2.5, , , 2
+-0.5, , , 2
+POINTS
+1, 1.0, 0.0, 1, edge
+END
+"""
 
 
 class Page(html.parser.HTMLParser):
@@ -181,6 +223,54 @@ class Reports(unittest.TestCase):
         self.assertIn("Do not use these numbers", page.texts["div"])
         self.assertNotIn("Error budget", page.texts["main"])
 
+    def test_which_state_is_shown(self):
+        """Of a history: after which increment, with what of each load case, and what came out of the others"""
+        jobs.run(self.folder, "lifted", LIFTED)
+        page = self.page("lifted")
+        for words in ("state shown", "end of increment 3 of 3: load case 1 (Weight) times 1, load case 2 (Wind) times 2.5",
+                      "Results by increment", "Displacements of points", "u at 60° [m]"):
+            self.assertIn(words, page.texts["main"])
+        job, = report.jobs_of(self.folder/"lifted")
+        self.assertEqual(job.case_names, ["Weight", "Wind"])
+        self.assertEqual(job.case_factors().tolist(), [1, 2.5])
+        self.mechanism("disc", "A disc slides (m, MN)")
+        self.assertIn("last equilibrium, in increment 2 of 2: load case 1", self.page("disc").texts["td"])
+        jobs.run(self.folder, "first", jobs.input_deck("first"))
+        self.assertNotIn("state shown", self.page("first").texts["th"])
+
+    def test_what_interfaces_carry(self):
+        """Forces, moments and the share of the area that is pressed, of a disc that lifts"""
+        jobs.run(self.folder, "lifted", LIFTED)
+        job, = report.jobs_of(self.folder/"lifted")
+        found = Page(markup.joined(report.tables.equilibrium(job)))
+        self.assertIn("Interfaces", found.texts["caption"])
+        self.assertIn("base", found.texts["th"])
+        points = axijoint.joint_points.JointPoints(job.result)
+        self.assertAlmostEqual(points.areas().sum(), np.pi, 12)
+        stick, slip, lost = points.shares([*range(6)])
+        self.assertAlmostEqual(stick + slip + lost, 1, 12)
+        self.assertAlmostEqual(stick + slip, 0.648, delta=0.004)
+        force = job.result.history.interface("base")[-1]
+        for value, wanted in zip(force, (100, 0, 25, 0, 0, 50*np.sin(np.pi/3))):
+            self.assertAlmostEqual(value, wanted, delta=1e-4)
+            self.assertIn(markup.number(value), found.texts["td"])
+        self.assertEqual(found.texts["p"].count("Moments are positive where they lift the side θ = 0"), 2)
+
+    def test_infinite_stresses_and_edges_are_told(self):
+        jobs.run(self.folder, "first", jobs.input_deck("first"))
+        page = self.page("first")
+        self.assertIn("Infinite stresses", page.texts["caption"])
+        for words in ("at 2 nodes: see", "by a line through the points before it"):
+            self.assertIn(words, page.texts["td"])
+
+    def test_bodies_that_yield(self):
+        """Their strength stands with the materials, and it is they that cannot carry the load"""
+        jobs.run(self.folder, "beyond", yielding_decks.pile(2, 0, (4.0, 2.0)), exit_code=4)
+        page = self.page("beyond")
+        self.assertIn("Materials that yield", page.texts["caption"])
+        self.assertNotIn("The joints cannot carry", page.texts["div"])
+        self.assertRegex(page.texts["div"], "(The bodies|Bodies and joints) cannot carry the load")
+
     def test_combinations(self):
         jobs.run(self.folder, "chimney", jobs.input_deck("chimney"))
         page = self.page("chimney")
@@ -296,6 +386,9 @@ class Reports(unittest.TestCase):
         for words in ("Load and displacement at", "p$–$y$ curves", "on its cuts at", "positive towards"):
             title, = (one for one in titles if words in one)
             self.assertIn(r"$\theta$ = 60°", title)
+        for name in ("deformed", "contours_sigma_z", "yielding"):
+            self.assertIn("lanes θ = 60° (right) and θ = 240° (left)",
+                          " ".join(report.pictures.describe(report.jobs_of(self.folder/"turned")[0], name)))
 
     @unittest.skipIf(plot is None, "matplotlib is not installed")
     def test_figures_of_bodies_that_yield(self):

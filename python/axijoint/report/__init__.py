@@ -64,12 +64,14 @@ def sections(job, figures, views):
     if figures:
         found.append(("figures", "Figures", _pictures))
     found += [("largest", "Largest values", tabular(tables.largest)),
+              ("points", "Points", tabular(tables.points)),
               ("equilibrium", "Resultants and equilibrium", tabular(tables.equilibrium)),
               ("materials", "Materials", tabular(tables.materials)), ("laws", "Joint laws", tabular(tables.laws)),
               ("loads", "Loads", tabular(tables.loads)), ("increments", "Increments", tabular(tables.increments)),
               ("yielding", "Yielding", tabular(tables.yielding)),
               ("harmonics", "Harmonics", tabular(tables.equations)), ("sections", "Sections", tabular(tables.sections))]
     present = {"laws": len(job.result.mesh.law_label), "sections": len(job.result.section_numbers),
+               "points": "points" in job.result.history and len(job.result.history.point_names) > 0,
                "errors": budget.known(job), "yielding": isinstance(job.summary.get("yielding"), dict)}
     return [one for one in found if present.get(one[0], True)]
 

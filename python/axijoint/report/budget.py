@@ -4,6 +4,9 @@ from .markup import is_number, joined, number, running, table, tag
 COLUMNS = {"energy": "energy", "displacement": "displacement", "joint_stress": "joint stress", "points": "at POINTS", "cuts": "on CUTS",
            "load": "load"}
 
+# What stands before values of the whole that are not plain by their keys
+SENTENCES = {"softness": "Softness, how many times faster than the load the displacement grew at last"}
+
 
 def said_of(job):
     """What the summary of a run says of it; None if nothing. Without an equilibrium it means nothing, but where bodies
@@ -63,7 +66,7 @@ def line(job):
 
 def _sentence(key, value):
     text = value if isinstance(value, str) else number(value) if is_number(value) else str(value)
-    return tag("p", f"{words(key).capitalize()}: ", tag("strong", running(text)))
+    return tag("p", f"{SENTENCES.get(key, words(key).capitalize())}: ", tag("strong", running(text)))
 
 
 def _cell(value):

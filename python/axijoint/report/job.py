@@ -79,6 +79,30 @@ class Job:
         return int(self.tags.get("combination") or 0)
 
     @property
+    def case_names(self):
+        """Names of the load cases, empty where they have none."""
+        found = self.result.attributes_of("loads").get("case_names", "").split("\n")
+        count = len(self.result.read("loads/case_label"))
+        return (found + [""]*count)[:count]
+
+    def case_factors(self):
+        """Factor that each load case acts with in the state shown, that of the combination and the increments together."""
+        history = self.result.history
+        return history["case_factor"][list(history.increment).index(self.result.increment)]
+
+    @property
+    def state(self):
+        """Which state of the history results are of, in words; None of a job of one increment."""
+        history = self.result.history
+        count = len(self.result.read("increments/factor"))
+        if count < 2:
+            return None
+        cases = [f"load case {label}{f' ({name})' if name else ''} times {factor:.6g}" for label, name, factor in
+                 zip(self.result.read("loads/case_label"), self.case_names, self.case_factors())]
+        where = {"converged": "end of", "mechanism": "last equilibrium, in"}.get(self.verdict, "last state, in")
+        return f"{where} increment {self.result.increment} of {count}: {', '.join(cases)}"
+
+    @property
     def verdict(self):
         """How the run ended: converged, mechanism, not_converged or error."""
         status = self.tags.get("status")

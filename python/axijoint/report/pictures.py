@@ -21,16 +21,16 @@ NARROW = 600
 NAMES = {"displacement": "Length of the displacement", "sigma_r": "Radial stress σ_r", "sigma_z": "Axial stress σ_z",
          "sigma_theta": "Hoop stress σ_θ", "tau_rz": "Shear stress τ_rz", "tau_rtheta": "Shear stress τ_rθ",
          "tau_ztheta": "Shear stress τ_zθ"}
-# Kinds of figures of one direction, that say it themselves
-ALONG_THE_LOAD = ("points", "pile", "py", "tz", "pisa")
+# Kinds of figures of one direction, or of the planes along it
+ALONG_THE_LOAD = ("deformed", "contours", "yielding", "points", "pile", "py", "tz", "pisa")
 # Figures of bodies that yield: caption, and in words what it shows
 YIELDING = {
-    "yielding": ("Yielding", "Planes θ = 0 (right) and θ = 180° (left): the largest equivalent plastic strain in each element."),
+    "yielding": ("Yielding", "{planes}: the largest equivalent plastic strain in each element."),
     "yielding_unrolled": ("Yield margin", "The share of the strength that is left, over θ and z, round the circle of the point "
                           "with the largest plastic strain; black line: the edge of what has yielded."),
-    "dissipation": ("Dissipation", "Planes θ = 0 (right) and θ = 180° (left): the largest work per volume that plastic strain "
+    "dissipation": ("Dissipation", "{planes}: the largest work per volume that plastic strain "
                     "dissipated in each element in the last increment. Near a limit load it shows where the mechanism shears."),
-    "mechanism": ("Mechanism", "Planes θ = 0 (right) and θ = 180° (left): what the step moved that found no equilibrium, "
+    "mechanism": ("Mechanism", "{planes}: what the step moved that found no equilibrium, "
                   "enlarged; dashed: at rest.")}
 
 
@@ -51,11 +51,13 @@ def pictures(job, mark):
 
 
 def _figures(result, plot):
-    """Yield name and figure of all kinds that tell something; those of forces and motions in one direction are along the load."""
-    turned = plot.Options(angles=(direction(result.history),))
+    """Yield name and figure of all kinds that tell something; those of one direction, or of two opposite planes, are along the load."""
+    theta = direction(result.history)
+    turned, both = plot.Options(angles=(theta,)), plot.Options(angles=(theta, theta + 180))
     for kind, one in plot.KINDS.items():
         if one.tells(result):
-            yield from plot.figures(result, [kind], turned if kind in ALONG_THE_LOAD else plot.Options())
+            options = turned if kind in ALONG_THE_LOAD else both if kind == "sections" and not result.section_numbers else plot.Options()
+            yield from plot.figures(result, [kind], options)
 
 
 def embedded(figure, plot):
@@ -82,7 +84,8 @@ def _saved(figure, plot, kind, **options):
 def describe(job, name):
     """Caption of a figure, and in words what it shows."""
     if name in YIELDING:
-        return YIELDING[name]
+        caption, words = YIELDING[name]
+        return caption, words.format(planes=f"P{_planes(job)[1:]}")
     kind, _, rest = name.partition("_")
     captions = {"mesh": _mesh, "deformed": _deformed, "contours": _contours, "section": _section, "line": _line,
             "joints": _joints, "convergence": _convergence, "spectrum": _spectrum}
@@ -112,9 +115,15 @@ def _mesh(job, _):
             f"{len(mesh.joint_label)} joints; materials, supports, and the loads as they act at θ = 0.")
 
 
+def _planes(job):
+    """The planes of a figure of two, in words: along the load."""
+    theta = direction(job.result.history)
+    return f"planes θ = {theta:g}° (right) and θ = {theta + 180:g}° (left)"
+
+
 def _deformed(job, _):
     peak = extremes(job.result)["length"][-1]
-    return ("Deformed body", "Meridional planes θ = 0 (right) and θ = 180° (left), displacements enlarged; dashed: at "
+    return ("Deformed body", f"Meridional {_planes(job)}, displacements enlarged; dashed: at "
             f"rest. The largest displacement of all angles is {_place(job, peak)}.")
 
 
@@ -124,7 +133,7 @@ def _contours(job, name):
     span = f"up to {_place(job, high)}" if name == "displacement" else \
         f"from {_place(job, *low)}, to {_place(job, high)}"
     return (NAMES[name] + (f" [{unit}]" if unit else ""),
-            f"Contours on the planes θ = 0 (right) and θ = 180° (left). All angles: {span}.")
+            f"Contours on the {_planes(job)}. All angles: {span}.")
 
 
 def _along(section):
@@ -143,8 +152,9 @@ def _section(job, rest):
 
 def _line(job, rest):
     from ..plot import curves
+    theta = direction(job.result.history)
     return ({"across": "Profile across the body", "along": "Profile along the body"}[rest],
-            _along(curves.sections(job.result)[f"line_{rest}"]))
+            _along(curves.sections(job.result, (theta, theta + 180))[f"line_{rest}"]))
 
 
 def _joints(job, rest):

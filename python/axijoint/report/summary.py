@@ -8,7 +8,7 @@ VERDICTS = {
     "converged": ("Converged", ""),
     "not_converged": ("NOT CONVERGED", "No equilibrium: what stands here is the last state of the iteration. Do not use "
                       "these numbers."),
-    "mechanism": ("NOT CONVERGED: MECHANISM", "The joints cannot carry the load. What stands here is the last "
+    "mechanism": ("NOT CONVERGED: MECHANISM", "{what} cannot carry the load. What stands here is the last "
                   "equilibrium, of a smaller load."),
     "error": ("ERROR: NO RESULTS", "The run ended with an error; there are no results.")}
 
@@ -27,6 +27,7 @@ def suffix(job):
 def verdict(job):
     """Box at the top of a run."""
     word, means = VERDICTS[job.verdict]
+    means = means.format(what=_bearing(job))
     failed = job.verdict != "converged"
     parts = [tag("p", word if failed else _converged(job), class_="word")]
     if means:
@@ -41,6 +42,12 @@ def verdict(job):
     if warnings and not failed:
         parts.append(tag("p", f"{warnings} message{'s' if warnings > 1 else ''}: see “Messages”."))
     return tag("div", *parts, class_="status failed" if failed else "status")
+
+
+def _bearing(job):
+    """What bears the load up to where it yields: joints, bodies, or both."""
+    bodies = isinstance(job.summary.get("yielding"), dict)
+    return ("Bodies and joints" if len(job.result.mesh.joint_label) else "The bodies") if bodies else "The joints"
 
 
 def _converged(job):
@@ -114,7 +121,7 @@ def _ranges(numbers):
 def _outcome(job):
     result = job.result
     path, errors = result.attributes_of("convergence"), result.attributes_of("resultants")
-    rows = [("status", VERDICTS[job.verdict][0]), ("iterations", str(result.convergence().rows or "none (linear)")),
+    rows = [("status", VERDICTS[job.verdict][0]), ("state shown", job.state), ("iterations", str(result.convergence().rows or "none (linear)")),
             ("residual ratio", f"{number(path['residual_ratio'])} (tolerance {number(path['tolerance'])})"),
             ("equilibrium error", f"{number(errors['equilibrium_error'])} on the whole, "
              f"{number(errors['part_equilibrium_error'])} on the worst part")]
@@ -132,7 +139,20 @@ def _outcome(job):
         units = {"pressure": job.units.stress, "gap": job.units.length}
         peaks = joint_peaks(result)
         rows += [(f"largest {name}", _at(peaks[name], unit)) for name, unit in units.items()]
+        rows.append(("pressure at an edge of joints", _edge(job)))
+    infinite = job.summary.get("singular")
+    if infinite:
+        rows.append(("infinite stresses", f"at {len(infinite)} node{'s' if len(infinite) > 1 else ''}: see “Largest values”"))
     return rows
+
+
+def _edge(job):
+    """Pressure at an edge of joints, beyond their last points, where it is larger than at these; None otherwise."""
+    edge = job.summary.get("edge_pressure")
+    if not isinstance(edge, dict):
+        return None
+    return (f"about {number(edge['value'])} {job.units.stress}".strip() + f" at r = {number(edge['r'])}, z = {number(edge['z'])}, "
+            f"θ = {number(edge['theta'])}°, by a line through the points before it")
 
 
 def _at(peak, unit):

@@ -3,7 +3,10 @@ import numpy as np
 
 from ..circle import ANTISYMMETRIC, SYMMETRIC
 from ..components import DISPLACEMENTS, STRESSES
+from ..history import joint_sums
+from ..joint_points import JointPoints
 from ..result import STATES
+from ..resultants import direction
 from .extremes import extremes, joint_peaks
 from .markup import Markup, escaped, number, table
 
@@ -14,6 +17,9 @@ SYMBOLS = {name: Markup(text) for name, text in {
 NO_BREAK = "\u00a0"
 RULES = {1: "centroid", 2: "Gauss", 3: "Lobatto"}
 RESULTANTS = ("axial force", "lateral force", "moment", "torque", "lateral force at 90°", "moment at 90°")
+# Sign of moments: the opposite of where a pile leans, as figures of piles have them
+LIFTS = "Moments are positive where they lift the side θ = 0, or 90°,"
+CRITERIA = ("ELASTIC", "TRESCA", "MISES", "MOHR", "DRUCKER")
 FAMILIES = {SYMMETRIC: "symmetric", ANTISYMMETRIC: "antisymmetric"}
 
 
@@ -41,6 +47,25 @@ def materials(job):
         yield table("Isotropic materials", columns, plain)
     if turned.any():
         yield table("Orthotropic materials", *_orthotropic(job, turned, expansion))
+    if job.result.has("yield/criterion"):
+        yield from _yielding_materials(job, labels)
+
+
+def _yielding_materials(job, labels):
+    """Criteria and strengths of the materials that yield."""
+    read, units = job.result.read, job.units
+    names = ("strength", "friction", "dilation", "hardening", "tension", "gradient", "level")
+    values = {name: read(f"yield/{name}") for name in names}
+    rows = []
+    for k in np.flatnonzero(read("yield/criterion") > 0):
+        strength, friction, dilation, hardening, tension, gradient, level = (float(values[name][k]) for name in names)
+        rows.append([labels[k], CRITERIA[int(read("yield/criterion")[k])], strength, *np.degrees([friction, dilation]), hardening,
+                     tension if tension >= 0 else None, gradient or None, level if gradient else None])
+    head = ["number", "criterion", with_unit("strength", units.stress), "φ [°]", "ψ [°]", with_unit("H'", units.stress),
+            with_unit("tension", units.stress), with_unit("gradient", per(units.stress, units.length)),
+            with_unit(Markup("z<sub>s</sub>"), units.length)]
+    yield table("Materials that yield", head, rows, "Strength: the uniaxial yield stress of TRESCA and MISES, the cohesion of MOHR and "
+                "DRUCKER; below z_s it grows by the gradient times the depth. Tension – is what the criterion allows.")
 
 
 def _orthotropic(job, chosen, expansion):
@@ -101,7 +126,9 @@ def loads(job):
     """Load cases with their factors, loads of each kind, springs."""
     read = job.result.read
     labels, factors = read("loads/case_label"), read("loads/case_factor")
-    yield table("Load cases of this combination", ["load case", "factor"], zip(labels, factors))
+    yield table("Load cases of this combination", ["load case", "name", "factor", "acts with"],
+                zip(labels, job.case_names, factors, job.case_factors()),
+                "Acts with: the factor times what the increments of the case add up to, in the state shown.")
     rows = [row for kind in ("edge", "ring", "body", "prescribed") for row in _loads_of(read, kind, labels)]
     if rows:
         yield table("Loads, without the factors of their cases",
@@ -162,13 +189,48 @@ def increments(job):
     read = job.result.read
     factor = read("increments/factor")
     if len(factor):
-        yield table("Load increments", ["increment", "factor", "tolerance", "most iterations"],
-                    zip(range(1, len(factor) + 1), factor, read("increments/tolerance"),
-                        read("increments/max_iterations")))
+        case = read("increments/case") if job.result.has("increments/case") else np.zeros(len(factor), int)
+        labels = read("loads/case_label")
+        yield table("Load increments", ["increment", "factor", "load case", "tolerance", "most iterations"],
+                    zip(range(1, len(factor) + 1), factor, [str(labels[k - 1]) if k else "all" for k in case],
+                        read("increments/tolerance"), read("increments/max_iterations")))
+    yield from _history(job)
     path = job.result.convergence()
     if path.rows:
         yield table("Convergence path", ["increment", "iteration", "load factor", "residual ratio", "slip", "open"],
                     zip(*path.values()), "slip, open: joint points times planes.")
+
+
+def _history(job):
+    """What came out of each increment, where there are several."""
+    found, units = job.result.increments, job.units
+    if found.rows < 2:
+        return
+    columns = {"increment": found["increment"], "load factor": found["load_factor"], "iterations": found["iterations"],
+               "slip": found["n_slip"], "open": found["n_open"],
+               with_unit("largest displacement", units.length): found["largest_displacement"],
+               with_unit("largest pressure", units.stress): found["largest_pressure"],
+               with_unit("work", units.moment): found["work"], with_unit("elastic energy", units.moment): found["energy"],
+               with_unit("dissipated", units.moment): found["dissipated"]}
+    lost = [str(k) for k, balanced in zip(found["increment"], found["equilibrium"]) if not balanced]
+    note = "At the end of each increment. Load factor: the sum over all load cases; slip, open: joint points times planes; dissipated: by " \
+        "slip and plastic strain."
+    yield table("Results by increment", columns, zip(*columns.values()),
+                note + (f" Not reached in equilibrium: increment {', '.join(lost)}." if lost else ""))
+
+
+def points(job):
+    """Displacements of the named points at the end of each increment, along the lateral load."""
+    history, units = job.result.history, job.units
+    theta, rows = direction(history), []
+    for name in history.point_names:
+        r, z = history.point_position(name)
+        for k, (increment, one, two) in enumerate(zip(history.increment, history.point(name, theta), history.point(name, theta + 180))):
+            rows.append([name if k == 0 else "", r, z, increment, *one, *two[:2]])
+    here, there = (f"{angle:g}°" for angle in (theta, (theta + 180) % 360))
+    yield table("Displacements of points", ["point", "r", "z", "increment", *(with_unit(f"{name} at {here}", units.length) for name in "uvw"),
+                                            *(with_unit(f"{name} at {there}", units.length) for name in "uv")], rows,
+                "u along r (outwards), v along z (upwards), w along θ; at the direction of the lateral load, and opposite.")
 
 
 def equilibrium(job):
@@ -182,7 +244,7 @@ def equilibrium(job):
         rows += [[f"reactions of face {face}" if face else "reactions of nodes of no face", *values]
                  for face, values in zip(read("supports/face"), read("supports/reacted").reshape(-1, 6))]
     errors = job.result.attributes_of("resultants")
-    yield table("Resultants", ["of", *head], rows, "Moments about the line θ = 90° through the origin. "
+    yield table("Resultants", ["of", *head], rows, f"Forces along z, θ = 0 and 90°. {LIFTS} about the origin r = z = 0. "
                 f"Equilibrium error: {number(errors['equilibrium_error'])} on the whole, "
                 f"{number(errors['part_equilibrium_error'])} on the worst part, of the largest resultant of the loads.",
                 named_rows=True)
@@ -192,7 +254,34 @@ def equilibrium(job):
                 zip(labels, read("cuts/z"), read("cuts/body"), read("cuts/resultants").reshape(-1, 6))]
         names = ("axial force", "shear force", *RESULTANTS[2:4], "shear force at 90°", "moment at 90°")
         yield table("Cuts", ["cut", "z", "body", *(with_unit(name, unit) for name, unit in zip(names, kinds))], rows,
-                    "What the part above exerts on the part below; tension is positive.")
+                    f"What the part above exerts on the part below; tension is positive. {LIFTS} of the part below, "
+                    "about r = 0 at the cut.")
+    yield from _interfaces(job, head)
+
+
+def _interfaces(job, head):
+    """What goes through interfaces at the end of the increment shown, and how much of their area does it."""
+    result, units = job.result, job.units
+    mesh = result.mesh
+    groups = [(one.name, one.law, one.joints) for one in result.interfaces if len(one.joints)]
+    alone = np.flatnonzero(mesh.joint_interface == 0)
+    if len(alone):
+        groups.append(("joints of JOINTS", None, alone))
+    if not groups:
+        return
+    points, rows = JointPoints(result), []
+    area = points.areas()
+    for name, law, joints in groups:
+        forces = joint_sums(result, joints)[list(result.history.increment).index(result.increment)]
+        whole = float(area[np.isin(points.owner, joints)].sum())
+        rows.append([name, law, *forces, whole, *(100*share for share in points.shares(joints))])
+    area_unit = f"{units.length}²" if units.length else ""
+    note = f"What the body at side 4-3 (body b) exerts on that at side 1-2 (body a). {LIFTS} of body a, about the origin r = z = 0. " \
+        "Shares of the area, by the planes of the law: points that are open carry nothing, the others touch or are glued."
+    if (result.read("joint_materials/initial_stress") != 0).any():
+        note += " Without the initial stress of LAWDETAILS, which loads nothing."
+    yield table("Interfaces", ["interface", "law", *head, with_unit("area", area_unit), "stick [%]", "slip [%]", "open [%]"], rows, note,
+                named_rows=True)
 
 
 def largest(job):
@@ -208,12 +297,24 @@ def largest(job):
     yield table("Nodes", head, rows, "Stresses are smoothed to the nodes; values are the largest round the circle. "
                 "What is zero is left out.",
                 named_rows=True)
+    yield from _infinite(job)
     joints = job.result.joints()
     if joints.rows:
-        yield table("Joints", *_joint_rows(job), named_rows=True)
+        yield table("Joints", *_joint_rows(job), "Slip is the relative displacement along the joint, its elastic part included: joints "
+                    "that stick have some.", named_rows=True)
         yield table("States (points × planes)", ["law", *STATES],
                     [[int(law), *(int(((joints["law"] == law) & (joints["state"] == state)).sum())
                                   for state in STATES)] for law in np.unique(joints["law"])])
+
+
+def _infinite(job):
+    """Nodes where no mesh brings stresses nearer, as the summary names them."""
+    found = [one for one in job.summary.get("singular") or [] if isinstance(one, dict)]
+    if found:
+        yield table("Infinite stresses", ["node", "r", "z", "power of the distance"],
+                    [[one.get(key) for key in ("node", "r", "z", "exponent")] for one in found],
+                    "Stresses of the exact solution are infinite at these nodes: values there, and near them, depend on the mesh and grow "
+                    "as it is refined. They are not to be held against a strength.")
 
 
 def _joint_rows(job):
