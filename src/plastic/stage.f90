@@ -126,6 +126,9 @@ contains
 
       associate (problem => stage%problem, found => stage%problem%steering%factor)
          step%case_factor = history%at%case_factor + found*step%steered
+         ! the path was written with the factor of the card, which is that of the displacement
+         where (history%path%increment == history%increment .and. abs(history%path%load_factor - step%load_factor) <= 0.0_wp) &
+            history%path%load_factor = history%at%load_factor + found
          step%load_factor = history%at%load_factor + found
          associate (share => step%share - history%at%share, given => stage%model%increments(history%increment)%factor)
             ! the displacement may need next to no load: residuals are held against what it would need if all held

@@ -204,6 +204,11 @@ def past_the_limit(folder, program):
                       hill(100.0*row['load_factor']), 1e-4)
     for row in rows[4:]:
         faults += off('collapse', 100.0*row['load_factor'], COLLAPSE, 1e-4)
+    # the path of iterations has the factors that were found, too
+    path = read_text(os.path.join(folder, 'yielding.lis')).split('CONVERGENCE PATH\n')[1].split('converged in')[0].splitlines()
+    factors = {int(line.split()[0]): float(line.split()[2]) for line in path if re.match(r' +\d+ +\d+ +\d', line)}
+    for row in rows:
+        faults += off(f'path of increment {row["increment"]}', factors[row['increment']], row['load_factor'], 1e-6)
     return faults + off('work', rows[-1]['energy'] + rows[-1]['dissipated'], rows[-1]['work'], 1e-6)
 
 
