@@ -238,6 +238,14 @@ class Reports(unittest.TestCase):
         jobs.run(self.folder, "first", jobs.input_deck("first"))
         self.assertNotIn("state shown", self.page("first").texts["th"])
 
+    def test_increments_of_displacements(self):
+        """Increments that give displacements are told, and load cases without a name have none"""
+        deck = yielding_decks.steered(yielding_decks.cylinder((0.3, 0.4)))
+        jobs.run(self.folder, "steered", deck)
+        page = self.page("steered")
+        self.assertIn("displacement", page.texts["td"])
+        self.assertIn("end of increment 2 of 2: load case 1 times 0.7", page.texts["td"])
+
     def test_what_interfaces_carry(self):
         """Forces, moments and the share of the area that is pressed, of a disc that lifts"""
         jobs.run(self.folder, "lifted", LIFTED)

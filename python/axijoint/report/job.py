@@ -81,7 +81,7 @@ class Job:
     @property
     def case_names(self):
         """Names of the load cases, empty where they have none."""
-        found = self.result.attributes_of("loads").get("case_names", "").split("\n")
+        found = [name.strip() for name in self.result.attributes_of("loads").get("case_names", "").split("\n")]
         count = len(self.result.read("loads/case_label"))
         return (found + [""]*count)[:count]
 

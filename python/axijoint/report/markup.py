@@ -7,6 +7,7 @@ from numbers import Integral, Real
 # Characters that HTML does not allow, and halves of pairs, which UTF-8 does not
 FORBIDDEN = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\x7f-\x9f\ud800-\udfff\ufdd0-\ufdef\ufffe\uffff]")
 EMPTY = {"img", "meta", "br"}
+NO_BREAK = "\u00a0"
 NOTHING = "–"
 # Rows of a long table that are shown at its beginning and at its end
 SHOWN_ROWS = 150
@@ -28,6 +29,11 @@ def escaped(value):
 def joined(parts, between="\n"):
     """Parts one after the other."""
     return Markup(between.join(escaped(part) for part in parts))
+
+
+def with_unit(name, unit):
+    """A title of a column or a row, and its unit."""
+    return Markup(f"{escaped(name)} [{escaped(unit).replace(' ', NO_BREAK)}]") if unit else name
 
 
 def running(value):

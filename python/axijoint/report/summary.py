@@ -1,7 +1,7 @@
 """How a run ended, in large letters if it failed; its main numbers; its messages."""
 from . import budget
 from .extremes import extremes, joint_peaks
-from .markup import Markup, joined, number, running, table, tag
+from .markup import Markup, joined, number, running, table, tag, with_unit
 
 # Of each way to end: the word at the top, what it means
 VERDICTS = {
@@ -64,8 +64,10 @@ def overview(jobs, names):
     parts = [tag("p", f"{name}: {VERDICTS[job.verdict][0]}", class_="word") for job, name in failed] or \
         [tag("p", f"All {len(jobs)} runs converged", class_="word")]
     box = tag("div", *parts, class_="status failed" if failed else "status")
-    head = ["run", "status", "iterations", "residual ratio", "part equilibrium error", "largest displacement",
-            "largest pressure", "open"]
+    units = {(job.units.length, job.units.stress) for job in jobs if job.result}
+    length, stress = units.pop() if len(units) == 1 else ("", "")
+    head = ["run", "status", "iterations", "residual ratio", "part equilibrium error", with_unit("largest displacement", length),
+            with_unit("largest pressure", stress), "open"]
     rows = [[name, VERDICTS[job.verdict][0], *_main_numbers(job)] for job, name in zip(jobs, names)]
     return joined([box, table("Overview", head, rows, named_rows=True)])
 

@@ -8,24 +8,18 @@ from ..joint_points import JointPoints
 from ..result import STATES
 from ..resultants import direction
 from .extremes import extremes, joint_peaks
-from .markup import Markup, escaped, number, table
+from .markup import Markup, number, table, with_unit
 
 SYMBOLS = {name: Markup(text) for name, text in {
     "sigma_r": "σ<sub>r</sub>", "sigma_z": "σ<sub>z</sub>", "sigma_theta": "σ<sub>θ</sub>",
     "tau_rz": "τ<sub>rz</sub>", "tau_rtheta": "τ<sub>rθ</sub>", "tau_ztheta": "τ<sub>zθ</sub>", "u": "u", "v": "v",
     "w": "w", "length": "length of the displacement"}.items()}
-NO_BREAK = "\u00a0"
 RULES = {1: "centroid", 2: "Gauss", 3: "Lobatto"}
 RESULTANTS = ("axial force", "lateral force", "moment", "torque", "lateral force at 90°", "moment at 90°")
 # Sign of moments: the opposite of where a pile leans, as figures of piles have them
 LIFTS = "Moments are positive where they lift the side θ = 0, or 90°,"
 CRITERIA = ("ELASTIC", "TRESCA", "MISES", "MOHR", "DRUCKER")
 FAMILIES = {SYMMETRIC: "symmetric", ANTISYMMETRIC: "antisymmetric"}
-
-
-def with_unit(name, unit):
-    """A title of a column or a row, and its unit."""
-    return Markup(f"{escaped(name)} [{escaped(unit).replace(' ', NO_BREAK)}]") if unit else name
 
 
 def per(unit, length):
@@ -191,9 +185,14 @@ def increments(job):
     if len(factor):
         case = read("increments/case") if job.result.has("increments/case") else np.zeros(len(factor), int)
         labels = read("loads/case_label")
-        yield table("Load increments", ["increment", "factor", "load case", "tolerance", "most iterations"],
-                    zip(range(1, len(factor) + 1), factor, [str(labels[k - 1]) if k else "all" for k in case],
-                        read("increments/tolerance"), read("increments/max_iterations")))
+        given = read("increments/given") if job.result.has("increments/given") else np.zeros(len(factor), int)
+        columns = {"increment": range(1, len(factor) + 1), "factor": factor,
+                   "load case": [str(labels[k - 1]) if k else "all" for k in case],
+                   "given": ["displacement" if k else "load" for k in given], "tolerance": read("increments/tolerance"),
+                   "most iterations": read("increments/max_iterations")}
+        if not given.any():
+            del columns["given"]
+        yield table("Load increments", columns, zip(*columns.values()))
     yield from _history(job)
     path = job.result.convergence()
     if path.rows:

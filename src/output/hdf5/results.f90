@@ -369,6 +369,8 @@ contains
          "Tolerance on the residual ratio; (increment)")
       call file%write("/increments/case", (model%increments%case), &
          "Load case (index) that the factor belongs to, 0 for all; (increment)")
+      call file%write("/increments/given", (merge(1, 0, model%increments%steered)), &
+         "What the factor is of: 0 the load, 1 the displacement of elastic bodies; (increment)")
       call file%write("/increments/max_iterations", (model%increments%max_iterations), &
          "Most iterations; (increment)")
       call file%group("/convergence")
