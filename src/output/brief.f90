@@ -44,7 +44,7 @@ contains
       text = text// &
          line("mesh", to_text(n_nodes(job%model%mesh))//" nodes, "// &
          to_text(n_elements(job%model%mesh))//" elements, "// &
-         to_text(n_joints(job%model%mesh))//" joints")// &
+         count_of(n_joints(job%model%mesh), "joint"))// &
          line("unknowns", to_text(n_unknowns(results))//" in "// &
          modes_text((results%modes%harmonic))//", highest m = "// &
          to_text(maxval(results%modes%harmonic)))
@@ -101,12 +101,12 @@ contains
       if (.not. results%converged .and. size(results%path) == 0) then
          text = mark_not_converged//" (linear): the equations are ill-conditioned"
       else if (.not. results%converged) then
-         text = mark_not_converged//" after "//to_text(size(results%path))// &
-            " iterations (tolerance "//to_text(results%tolerance)//")"
+         text = mark_not_converged//" after "//count_of(size(results%path), "iteration")// &
+            " (tolerance "//to_text(results%tolerance)//")"
       else if (size(results%path) == 0) then
          text = "converged (linear)"
       else
-         text = "converged in "//to_text(size(results%path))//" iterations (tolerance "// &
+         text = "converged in "//count_of(size(results%path), "iteration")//" (tolerance "// &
             to_text(results%tolerance)//")"
       end if
    end function status_text

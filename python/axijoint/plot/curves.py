@@ -114,14 +114,17 @@ def broken(section, values):
 
 @style.styled
 def draw_convergence(result, options=Options()):
-    """Residual ratio against iterations, points that slip or are open below: a Figure.
+    """Residual ratio against iterations, below it, where there are joints, points that slip or are open: a Figure.
 
     None if there is no residual to show: of a linear job, or where no joint slips or opens.
     """
     path = result.convergence()
     if not (path["ratio"] > 0).any():
         return None
-    figure, (above, below) = plt.subplots(2, 1, figsize=(4.6, 4.2), sharex=True, height_ratios=(3, 2))
+    jointed = len(result.mesh.joint_label) > 0
+    heights = (3, 2) if jointed else (3,)
+    figure, axes = plt.subplots(len(heights), 1, figsize=(4.6, 0.84*sum(heights)), sharex=True, height_ratios=heights, squeeze=False)
+    above, lowest = axes[0, 0], axes[-1, 0]
     step = np.arange(1, path.rows + 1)
     marker = {"marker": "o", "markevery": max(1, path.rows//40), "ms": 3}
     ratio = np.where(path["ratio"] > 0, path["ratio"], np.nan)
@@ -130,17 +133,18 @@ def draw_convergence(result, options=Options()):
     above.annotate("tolerance", (1, result.attributes_of("convergence")["tolerance"]), (3, 0), va="center",
                    xycoords=("axes fraction", "data"), textcoords="offset points", color="0.25")
     ratio_axis(above.yaxis, np.nanmin(ratio), np.nanmax(ratio))
-    above.set_ylabel("residual forces / applied forces")
-    for name, label, (colour, dashes, shape) in zip(("n_open", "n_slip"), ("open", "slip"), style.CURVES):
-        below.plot(step, path[name], color=colour, ls=dashes, **(marker | {"marker": shape}), label=label)
-    below.set_ylabel("points × planes")
-    below.set_xlabel("iteration")
-    below.set_ylim(0, max(1, 1.05*max(path["n_open"].max(), path["n_slip"].max())))
-    below.legend()
+    above.set_ylabel("forces out of balance, relative")
+    if jointed:
+        for name, label, (colour, dashes, shape) in zip(("n_open", "n_slip"), ("open", "slip"), style.CURVES):
+            lowest.plot(step, path[name], color=colour, ls=dashes, **(marker | {"marker": shape}), label=label)
+        lowest.set_ylabel("points × planes")
+        lowest.set_ylim(0, max(1, 1.05*max(path["n_open"].max(), path["n_slip"].max())))
+        lowest.legend()
+    lowest.set_xlabel("iteration")
     for change in np.flatnonzero(np.diff(path["increment"])):
-        for one in (above, below):
+        for one in axes.flat:
             one.axvline(change + 1.5, color="0.75", lw=0.6)
-    below.xaxis.set_major_locator(style.matplotlib.ticker.MaxNLocator(integer=True))
+    lowest.xaxis.set_major_locator(style.matplotlib.ticker.MaxNLocator(integer=True))
     if options.title:
         figure.suptitle(options.title)
     return figure

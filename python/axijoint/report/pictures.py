@@ -173,9 +173,9 @@ def _joints(job, rest):
 
 def _convergence(job, _):
     path = job.result.convergence()
-    return ("Convergence", f"Residual forces over applied forces, from {number(path['ratio'][0])} to "
-            f"{number(path['ratio'][-1])} in {path.rows} iteration{'s' if path.rows > 1 else ''}; below it, points times "
-            "planes that slip and are open.")
+    states = "; below it, points times planes that slip and are open" if len(job.result.mesh.joint_label) else ""
+    return ("Convergence", "Forces out of balance, of the whole or of the worst part, whichever is larger: from "
+            f"{number(path['ratio'][0])} to {number(path['ratio'][-1])} in {path.rows} iteration{'s' if path.rows > 1 else ''}{states}.")
 
 
 def _spectrum(job, _):

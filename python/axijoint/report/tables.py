@@ -197,7 +197,7 @@ def increments(job):
     path = job.result.convergence()
     if path.rows:
         yield table("Convergence path", ["increment", "iteration", "load factor", "residual ratio", "slip", "open"],
-                    zip(*path.values()), "slip, open: joint points times planes.")
+                    zip(*path.values()), "slip, open: joint points times planes; ratio of the whole or of the worst part, whichever is larger.")
 
 
 def _history(job):

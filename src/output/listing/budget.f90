@@ -5,7 +5,7 @@ module axijoint_output_listing_budget
    use axijoint_analysis_error_budget, only : sum_of_shares, is_known
    use axijoint_analysis_error_cut_errors, only : n_kinds, sizes_on_cuts
    use axijoint_base_kinds, only : wp
-   use axijoint_base_text, only : to_text, fine_percent
+   use axijoint_base_text, only : to_text, count_of, fine_percent
    use axijoint_model_mesh, only : n_joints
    use axijoint_model_model, only : model_type
    use axijoint_output_file_columns, only : columns, known_column
@@ -300,7 +300,7 @@ contains
       if (.not. has_singular(results)) return
       associate (place => results%singular(minloc(results%singular%exponent, 1)))
          write (power, "(f6.2)") place%exponent
-         text = "at "//to_text(size(results%singular))//" nodes; like distance^"// &
+         text = "at "//count_of(size(results%singular), "node")//"; like distance^"// &
             trim(adjustl(power))// &
                 " at node "//to_text(model%mesh%node_label(place%node))//" (r = "// &
                 to_text(model%mesh%coordinates(1, place%node))//", z = "// &

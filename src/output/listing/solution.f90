@@ -6,7 +6,7 @@ module axijoint_output_listing_solution
    use axijoint_analysis_core_totals, only : circle_type, new_circle, total_displacement, n_unknowns
    use axijoint_base_kinds, only : wp, degree
    use axijoint_base_system, only : peak_memory_mb
-   use axijoint_base_text, only : to_text
+   use axijoint_base_text, only : to_text, count_of
    use axijoint_base_timer, only : timer_type, n_phases, phase_names, phase_total
    use axijoint_fe_mode, only : mode_type, mode_name, family_symmetric
    use axijoint_model_mesh, only : n_nodes
@@ -112,7 +112,7 @@ contains
       listed = chosen_lines(model, print_path, size(results%path))
       if (any(listed)) then
          call file%put("  ("//to_text(size(results%joint_state))// &
-            " states: joint points times planes)")
+            " states: joint points times planes; ratio of the whole or of the worst part, whichever is larger)")
          call file%put("   increment   iteration    load factor residual ratio        slip"// &
             "        open")
       end if
@@ -153,7 +153,7 @@ contains
          text = mark_not_converged//" linear job: its equations are ill-conditioned; residual "// &
             "ratio "//ratio//", tolerance "//tolerance
       else if (allocated(results%mechanism) .or. results%strayed) then
-         text = mark_not_converged//" after "//to_text(size(results%path))//" iterations: "// &
+         text = mark_not_converged//" after "//count_of(size(results%path), "iteration")//": "// &
             merge("they run away", "a mechanism  ", results%strayed)
          text = trim(text)//"; results are those of the last equilibrium, residual ratio "//ratio
       else if (.not. results%converged .and. results%residual_ratio <= results%tolerance .and. &
@@ -166,11 +166,11 @@ contains
             to_text(results%mismatch)//", tolerance "//tolerance
       else if (.not. results%converged) then
          text = mark_not_converged//" residual ratio "//ratio//", tolerance "//tolerance// &
-            ", after "//to_text(size(results%path))//" iterations: these results are no equilibrium"
+            ", after "//count_of(size(results%path), "iteration")//": these results are no equilibrium"
       else if (size(results%path) == 0) then
          text = "linear job, no joint can yield: no iterations; residual ratio "//ratio
       else
-         text = "converged in "//to_text(size(results%path))//" iterations: residual ratio "// &
+         text = "converged in "//count_of(size(results%path), "iteration")//": residual ratio "// &
             ratio//" within the tolerance "//tolerance
       end if
    end function convergence_text
