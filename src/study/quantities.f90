@@ -22,10 +22,11 @@ module axijoint_study_quantities
    !> Estimates of errors over the largest value, of the last increment; negative if not known
    character(len=20), parameter :: estimates(2) = [character(len=20) :: &
       'error_displacement', 'error_joint_stress']
-   !> Resultants, and components of a displacement: u and v at theta = 0, w at 90 degrees
+   !> Resultants, and components of a displacement: u and v at theta = 0, w at 90 degrees, u and v there
    character(len=10), parameter :: resultants(n_resultants) = [character(len=10) :: &
       'axial', 'lateral', 'moment', 'torque', 'lateral_90', 'moment_90']
-   character(len=1), parameter :: components(3) = ['u', 'v', 'w']
+   integer, parameter :: n_components = 5
+   character(len=4), parameter :: components(n_components) = [character(len=4) :: 'u', 'v', 'w', 'u_90', 'v_90']
 
 contains
 
@@ -39,7 +40,7 @@ contains
       character(len=:), allocatable :: thing
       integer :: k, i, n
 
-      allocate (names(size(general) + size(estimates) + 1 + 3*size(model%points) &
+      allocate (names(size(general) + size(estimates) + 1 + n_components*size(model%points) &
                       + n_resultants*(size(model%supported_faces) + size(model%cuts))))
       names(:size(general)) = general
       n = size(general)
@@ -49,8 +50,8 @@ contains
       do k = 1, size(model%points)
          thing = trim(model%points(k)%name)
          if (thing == '') thing = 'point '//to_text(model%points(k)%label)
-         names(n + 1:n + 3) = [(thing//' '//components(i), i=1, 3)]
-         n = n + 3
+         names(n + 1:n + n_components) = [(thing//' '//components(i), i=1, n_components)]
+         n = n + n_components
       end do
       do k = 1, size(model%supported_faces)
          names(n + 1:n + n_resultants) = [('face '//to_text(model%supported_faces(k)%label)//' '// &
@@ -78,7 +79,7 @@ contains
       integer :: i, n
 
       n = size(general) + size(estimates) + 1
-      allocate (values(n + 3*size(series%points, 2) + size(series%faces(:, :, 1)) + &
+      allocate (values(n + n_components*size(series%points, 2) + size(series%faces(:, :, 1)) + &
                        size(series%cuts(:, :, 1)), series%n))
       values(size(general) + 1:n, :) = -1.0_wp
       do i = 1, series%n
@@ -101,23 +102,26 @@ contains
 
    contains
 
-      !> Displacements of the points: u and v at theta = 0, w at 90 degrees
+      !> Displacements of the points: u and v at theta = 0, w at 90 degrees, u and v there: a load along 90 degrees moves
+      !> nothing of the first three
       function totals(i)
          !> Place of the increment
          integer, intent(in) :: i
-         !> Shape (3 points)
+         !> Shape (components points)
          real(wp), allocatable :: totals(:)
 
          integer :: k
+         real(wp) :: sums(n_components, size(series%points, 2))
 
-         allocate (totals(3*size(series%points, 2)), source=0.0_wp)
+         sums = 0.0_wp
          do k = 1, size(results%modes)
-            associate (mode => results%modes(k))
-               totals = totals + reshape(spread([meridional(mode, 0.0_wp), &
-                  meridional(mode, 0.0_wp), circumferential(mode, 0.5_wp*pi)], 2, &
-                  size(series%points, 2))*series%points(:, :, k, i), [size(totals)])
+            associate (mode => results%modes(k), amplitude => series%points(:, :, k, i))
+               sums(1:2, :) = sums(1:2, :) + meridional(mode, 0.0_wp)*amplitude(1:2, :)
+               sums(3, :) = sums(3, :) + circumferential(mode, 0.5_wp*pi)*amplitude(3, :)
+               sums(4:5, :) = sums(4:5, :) + meridional(mode, 0.5_wp*pi)*amplitude(1:2, :)
             end associate
          end do
+         totals = reshape(sums, [size(sums)])
       end function totals
 
    end function quantity_values

@@ -563,6 +563,20 @@ def arrays(program, folder):
     return faults + ([f'{done.stdout}{done.stderr}'] if done.returncode else [])
 
 
+def turned_points(program, folder):
+    """Points of a study move where the load points, be that along 90 degrees"""
+    text = read_text(os.path.join(INPUTS, 'first.dat')).replace('\nEND', '\nPOINTS\n1, 0.5, -0.5, 1, head\nEND')
+    found, faults = {}, []
+    for angle in (0, 90):
+        deck = write(folder, 'turned.dat', text.replace('    1   LATERAL       0.4', f'1, LATERAL, 0.4, {angle}'))
+        rows, more = study(program, folder, 'LAWS 1 PHI\n30\n', deck)
+        found[angle], faults = rows[0], faults + more
+    for one, other in (('head u', 'head u_90'), ('head v', 'head v_90')):
+        wanted, moved = float(found[0][one]), float(found[90][other])
+        faults += [] if abs(moved/wanted - 1.0) < 1e-6 else [f'{other} is {moved}, but {one} of the load along 0 degrees {wanted}']
+    return faults
+
+
 def envelope(program, folder, deck, *options, code=0):
     """Find an envelope; its rows, and faults"""
     ran = program.run('envelope', deck, '-o', folder, '--quiet', *options, folder=folder, time_limit=300)
@@ -757,6 +771,7 @@ def tests(program):
         Test('studies/controls', lambda folder: controls(program, folder)),
         Test('studies/planes', lambda folder: planes(program, folder)),
         Test('studies/yielding', lambda folder: yielding(program, folder)),
+        Test('studies/turned points', lambda folder: turned_points(program, folder)),
         Test('studies/order and parts', lambda folder: order_does_not_matter(program, folder)),
         Test('studies/processes', lambda folder: processes(program, folder)),
         Test('studies/wrong tables', lambda folder: wrong_tables(program, folder)),
