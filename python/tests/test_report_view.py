@@ -107,7 +107,9 @@ class Views(unittest.TestCase):
         titles = [one["title"] for one in found["curves"]]
         self.assertEqual(titles, ["Load and displacement at θ = 0°", "Shear force of body 1 at θ = 0°", "Moment of body 1 at θ = 0°",
                                   "Axial force of body 1", "Deflection of body 1 at θ = 0°", "Work and energy"])
-        self.assertAlmostEqual(found["curves"][2]["lines"][0]["x"][5][-1], -100, 3)
+        # with the sign of the figure of the pile, which stands on the same page, and in words
+        self.assertAlmostEqual(found["curves"][2]["lines"][0]["x"][5][-1], 100, 3)
+        self.assertEqual([found["curves"][k]["x"] for k in (2, 3)], ["moment, leaning that way [MN m]", "axial force, tension positive [MN]"])
         for job in self.jobs["chimney"]:
             self.assertEqual(len(dict(self.check(job, view.data(job)[0]))), len(set(job.result.mesh.element_body)))
 

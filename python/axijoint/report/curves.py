@@ -67,12 +67,14 @@ def _profiles(job, rows):
             continue
         chosen = chosen[np.argsort(z[chosen])]
         of = f" of body {number}" if number else ""
-        for name, values, columns, unit in (("Shear force", cuts, FORCE, units.force), ("Moment", cuts, MOMENT, units.moment),
+        # moments have the sign of the figure of a pile: they lean the part below that way, as a force there on the part above does
+        for name, values, columns, unit in (("Shear force", cuts, FORCE, units.force), ("Moment", -cuts, MOMENT, units.moment),
                                             ("Axial force", cuts, AXIAL, units.force),
                                             ("Deflection", motion, FORCE, units.length)):
             for where, here in _ways(values[:, chosen], columns, theta):
                 title = f"{name}{of}{where}"
-                yield {"kind": "profile", "title": title, "x": _unit(name.lower(), unit), "y": _unit("z", units.length),
+                sense = ", leaning that way" if columns == MOMENT else ", tension positive" if columns == AXIAL else ""
+                yield {"kind": "profile", "title": title, "x": _unit(f"{name.lower()}{sense}", unit), "y": _unit("z", units.length),
                        "lines": [{"name": title, "x": [_number(row) for row in here], "y": _number(z[chosen])}]}
 
 
