@@ -229,7 +229,8 @@ def points(job):
     here, there = (f"{angle:g}°" for angle in (theta, (theta + 180) % 360))
     yield table("Displacements of points", ["point", "r", "z", "increment", *(with_unit(f"{name} at {here}", units.length) for name in "uvw"),
                                             *(with_unit(f"{name} at {there}", units.length) for name in "uv")], rows,
-                "u along r (outwards), v along z (upwards), w along θ; at the direction of the lateral load, and opposite.")
+                "u along r (outwards), v along z (upwards), w along θ; in the direction of the largest lateral load of the increments, without any that of "
+                "reactions, and opposite.")
 
 
 def equilibrium(job):
@@ -275,8 +276,9 @@ def _interfaces(job, head):
         whole = float(area[np.isin(points.owner, joints)].sum())
         rows.append([name, law, *forces, whole, *(100*share for share in points.shares(joints))])
     area_unit = f"{units.length}²" if units.length else ""
-    note = f"What the body at side 4-3 (body b) exerts on that at side 1-2 (body a). {LIFTS} of body a, about the origin r = z = 0. " \
-        "Shares of the area, by the planes of the law: points that are open carry nothing, the others touch or are glued."
+    note = (f"What the body at side 4-3 (body b) exerts on that at side 1-2 (body a). {LIFTS} of body a, about the origin r = z = 0. "
+            "Shares of the area, by the planes of the law: points that are open carry nothing, the others touch or are glued; elastic "
+            "joints always stick, in tension, too.")
     if (result.read("joint_materials/initial_stress") != 0).any():
         note += " Without the initial stress of LAWDETAILS, which loads nothing."
     yield table("Interfaces", ["interface", "law", *head, with_unit("area", area_unit), "stick [%]", "slip [%]", "open [%]"], rows, note,
