@@ -1,8 +1,8 @@
 !> `axijoint study`: many states of a deck, as a table says
 module axijoint_command_study
    use, intrinsic :: iso_fortran_env, only : output_unit
-   use axijoint_base_error, only : error_type, exit_ok, exit_singular, exit_not_converged, &
-      exit_stopped
+   use axijoint_base_error, only : error_type, fatal_error, exit_ok, exit_deck, exit_singular, exit_not_converged, &
+      exit_memory, exit_stopped
    use axijoint_base_kinds, only : wp, i8
    use axijoint_base_memory, only : give_back_memory
    use axijoint_base_progress, only : show_progress, clear_progress, tell_below
@@ -52,6 +52,13 @@ module axijoint_command_study
       type(undertaking_type) :: undertaking
    end type study_type
 
+   !> What others have done of a study that is gathered
+   type :: others_type
+      !> Rows that they solved just now, how many they are, and the clock when they began
+      integer :: n_rows = 0, n_processes = 0
+      integer(i8) :: start = 0
+   end type others_type
+
 contains
 
    !> Run a study
@@ -64,10 +71,13 @@ contains
       type(error_type), allocatable :: error
 
       if (command%threads > 0) call omp_set_num_threads(command%threads)
-      if (allocated(command%options%team)) then
+      if (.not. allocated(command%options%team)) then
+         call run_part(command, exit_code, error)
+      else if (command%part%n == 0 .or. command%options%team%size == 1) then
          call run_by_groups(command, exit_code, error)
       else
-         call run_part(command, exit_code, error)
+         call fatal_error(error, exit_deck, 'option --part is not for several processes by MPI, which share all rows'// &
+            new_line('a')//'mend: one process for a part, or no --part')
       end if
       if (.not. allocated(error)) return
       exit_code = error%code
@@ -77,19 +87,25 @@ contains
    end subroutine run_study
 
    !> Run a study, or a part of it, by this process and its team
-   subroutine run_part(command, exit_code, error)
+   subroutine run_part(command, exit_code, error, n_solved, others)
       !> Table, deck and options
       type(command_type), intent(in) :: command
       !> Largest exit code of all rows
       integer, intent(out) :: exit_code
       !> Errors of deck, table or files; the program is to end
       type(error_type), allocatable, intent(out) :: error
+      !> Rows solved, as far as this process knows
+      integer, intent(out), optional :: n_solved
+      !> What others have done just before, for the words at the end
+      type(others_type), intent(in), optional :: others
 
       type(study_type), target :: study
       type(row_type), allocatable :: done(:)
       character(len=:), allocatable :: notes
+      integer :: n_new
 
       exit_code = exit_ok
+      n_new = 0
       call heed_signals(with_others=allocated(command%options%team))
       call begin_study(command, study, error)
       if (.not. allocated(error)) then
@@ -100,10 +116,11 @@ contains
             if (len(notes) > 0) call tell_below(notes)
          end if
          call agree(command, error)
-         if (.not. allocated(error)) call solve_rows(command, study, done, error)
+         if (.not. allocated(error)) call solve_rows(command, study, done, n_new, error, others)
          if (speaks(command)) call end_undertaking(study%undertaking, error)
       end if
       call clear_progress(study%rows%progress)
+      if (present(n_solved)) n_solved = n_new
       if (.not. allocated(error)) &
          exit_code = max(exit_ok, maxval(done%code, mask=done%number > 0))
    end subroutine run_part
@@ -119,10 +136,13 @@ contains
 
       type(command_type) :: own
       class(team_type), allocatable :: group
+      type(others_type) :: others
+      real(wp), allocatable :: solved(:)
       real(wp) :: code(1)
-      integer :: n
+      integer :: n, n_solved, k
 
       exit_code = exit_ok
+      call system_clock(others%start)
       associate (team => command%options%team)
          n = team%size
          if (command%n_processes > 1) n = min(n, command%n_processes)
@@ -130,17 +150,23 @@ contains
          own = command
          own%n_processes = 1
          own%quiet = own%quiet .or. n > 1
-         own%part = part_type(team%rank*n/team%size + 1, n)
+         if (own%part%n == 0) own%part = part_type(team%rank*n/team%size + 1, n)
          deallocate (own%options%team)
-         if (group%size > 1) allocate (own%options%team, source=group)
-         call run_part(own, exit_code, error)
+         ! a rank by itself is a team, too, which knows who shares the memory of its machine
+         allocate (own%options%team, source=group)
+         call run_part(own, exit_code, error, n_solved)
          call team%agree(error)
-         if (.not. allocated(error) .and. team%rank == 0) then
+         allocate (solved(team%size), source=0.0_wp)
+         if (group%rank == 0) solved(team%rank + 1) = n_solved
+         call team%gather(solved, size(solved, kind=i8), [(k, k=0, team%size)])
+         if (.not. allocated(error) .and. team%rank == 0 .and. command%part%n == 0) then
             own = command
             own%n_processes = 1
             own%part = part_type(0, n)
             deallocate (own%options%team)
-            call run_part(own, exit_code, error)
+            others%n_rows = nint(sum(solved))
+            others%n_processes = team%size
+            call run_part(own, exit_code, error, others=others)
          end if
          call team%agree(error)
          if (allocated(error)) exit_code = error%code
@@ -211,30 +237,39 @@ contains
    end subroutine begin_study
 
    !> Solve the rows that are not done, and write the files
-   subroutine solve_rows(command, study, done, error)
+   subroutine solve_rows(command, study, done, n_new, error, others)
       !> Options
       type(command_type), intent(in) :: command
       !> The study
       type(study_type), intent(inout), target :: study
       !> What came of each row
       type(row_type), allocatable, intent(out) :: done(:)
+      !> Rows solved that were not done before; of one without memory nobody knows what comes of it elsewhere
+      integer, intent(out) :: n_new
       !> A file cannot be written, or the program is to end
       type(error_type), allocatable, intent(out) :: error
+      !> What others have done just before
+      type(others_type), intent(in), optional :: others
 
       type(journal_type) :: journal
+      logical, allocatable :: before(:)
       integer, allocatable :: order(:)
       integer(i8) :: start, now, rate
       integer :: n_before, n_processes
 
+      n_new = 0
       call system_clock(start, rate)
+      if (present(others)) start = others%start
       order = row_order(study%table, study%rows%keeps_structure)
       allocate (done(size(order)))
       if (speaks(command)) call find_done(command, study, journal, done, n_before, error)
       call agree(command, error)
       if (allocated(error)) return
       if (allocated(command%options%team)) call share_done(command%options%team, done)
+      before = done%number > 0
       call solve_left(command, study, order, journal, done, n_processes, error)
       if (allocated(error)) return
+      n_new = count(done%number > 0 .and. done%code /= exit_memory .and. .not. before)
       call system_clock(now)
       if (command%part%number == 0) then
          call write_study(study%undertaking, study%rows%source, study%table, study%names, done, &
@@ -245,6 +280,10 @@ contains
             size(study%names), command%part%n)
       end if
       call clear_progress(study%rows%progress)
+      if (present(others)) then
+         n_before = n_before - others%n_rows
+         n_processes = others%n_processes
+      end if
       if (.not. command%quiet .and. speaks(command)) &
          call tell_end(command, n_processes, study, done, n_before, real(now - start, wp)/rate)
    end subroutine solve_rows
