@@ -262,7 +262,7 @@ contains
       if (present(others)) start = others%start
       order = row_order(study%table, study%rows%keeps_structure)
       allocate (done(size(order)))
-      if (speaks(command)) call find_done(command, study, journal, done, n_before, error)
+      if (speaks(command)) call find_done(command, study, order, journal, done, n_before, error)
       call agree(command, error)
       if (allocated(error)) return
       if (allocated(command%options%team)) call share_done(command%options%team, done)
@@ -393,11 +393,13 @@ contains
    end subroutine share_done
 
    !> Find the rows that are done already, and say so
-   subroutine find_done(command, study, journal, done, n_before, error)
+   subroutine find_done(command, study, order, journal, done, n_before, error)
       !> Options
       type(command_type), intent(in) :: command
       !> The study
       type(study_type), intent(in) :: study
+      !> Numbers of the rows in their order
+      integer, intent(in) :: order(:)
       !> The journal, open
       type(journal_type), intent(out) :: journal
       !> Rows by number; takes those that are done
@@ -423,6 +425,11 @@ contains
          else
             call read_journal(journal_path(stem, whole), study%key, size(study%names), done, there, &
                ours, torn)
+            ! of parts that are as many as now, each has rows of its own
+            call gather_parts(study%undertaking%directory, study%undertaking%name, study%key, &
+               size(study%names), done, n_others, n_beside=part%n)
+            done(order(:first_row(part, size(order)) - 1)) = row_type()
+            done(order(last_row(part, size(order)) + 1:)) = row_type()
          end if
          n_before = count(done%number > 0)
          if (len(put_aside) > 0) &

@@ -93,7 +93,7 @@ contains
 
    !> Take the rows that parts have done, however many there are. Those that a part found no memory
    !> for are not done: who gathers them may have more, as he shares it with none by then
-   subroutine gather_parts(directory, name, key, n_quantities, rows, n_others)
+   subroutine gather_parts(directory, name, key, n_quantities, rows, n_others, n_beside)
       !> Directory and name of the study's files, and what tells it from others
       character(len=*), intent(in) :: directory, name, key
       !> Quantities of a row
@@ -102,17 +102,25 @@ contains
       type(row_type), intent(inout) :: rows(:)
       !> Parts that hold rows of another study
       integer, intent(out) :: n_others
+      !> Number of parts whose rows are left to them; none if absent
+      integer, intent(in), optional :: n_beside
 
-      character(len=:), allocatable :: names
+      character(len=:), allocatable :: names, left
       logical :: there, ours, torn, before(size(rows))
       integer :: first, last, k
 
       names = names_in(directory, name//'.', rows_ending)
+      left = new_line('a')  ! no name has it
+      if (present(n_beside)) left = 'of'//to_text(n_beside)//rows_ending
       before = rows%number > 0
       n_others = 0
       first = 1
       do while (first < len(names))
          last = first + index(names(first:), new_line('a')) - 2
+         if (index(names(first:last), left) > 0) then
+            first = last + 2
+            cycle
+         end if
          call read_journal(join_path(directory, names(first:last)), key, n_quantities, rows, there, &
             ours, torn)
          if (there .and. .not. ours) n_others = n_others + 1

@@ -227,6 +227,19 @@ def order_does_not_matter(program, folder):
     return faults + expected('journals that are left', [], left)
 
 
+def other_parts(program, folder):
+    """Rows that parts have done are not solved again by parts of another number, nor are those of others counted among theirs"""
+    deck = os.path.join(INPUTS, 'case3_balanced.dat')
+    table, faults = CASE3.format(lines='0;20;35, 0;0.2, 0.2;0.4'), []
+    path = write(folder, 'parts.csv', table)
+    for part, said in (('3/3', '4 rows, 4 solved now'), ('1/3', '4 rows, 4 solved now'), ('1/2', '6 rows, 2 solved now'), ('2/2', '6 rows, 2 solved now'),
+                       ('2/3', '4 rows, 0 solved now'), ('0/3', '12 rows, 0 solved now')):
+        ran = program.run('study', path, deck, '-o', folder, '--part', part, folder=folder)
+        faults += ran.ended_with(0) + ([] if said in ran.out else [f'part {part}: {said!r} is not said in\n{ran.out}'])
+    whole, more = study(program, folder, table, deck, name='whole')
+    return faults + more + same_rows(whole, rows_of(os.path.join(folder, 'parts.study.csv')))
+
+
 def processes(program, folder):
     """Rows by three processes have the digits of one, also when one of them is killed; told to end, all end, and the
     same study by two goes on"""
@@ -773,6 +786,7 @@ def tests(program):
         Test('studies/yielding', lambda folder: yielding(program, folder)),
         Test('studies/turned points', lambda folder: turned_points(program, folder)),
         Test('studies/order and parts', lambda folder: order_does_not_matter(program, folder)),
+        Test('studies/other parts', lambda folder: other_parts(program, folder)),
         Test('studies/processes', lambda folder: processes(program, folder)),
         Test('studies/wrong tables', lambda folder: wrong_tables(program, folder)),
         Test('studies/taken names', lambda folder: taken_names(program, folder)),
