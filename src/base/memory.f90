@@ -47,6 +47,8 @@ contains
       !> What `free_memory` has just found; it looks if absent
       integer(i8), intent(in), optional :: found
 
+      character(len=:), allocatable :: share, fewer
+
       if (present(found)) then
          if (bytes <= found) return
       else if (bytes <= free_memory(limit, sharers)) then
@@ -59,10 +61,18 @@ contains
                           'mend: a larger limit, or a coarser mesh')
          return
       end if
+      share = ''
+      fewer = ''
+      if (present(sharers)) then
+         if (sharers > 1) then
+            share = ' to each of '//to_text(sharers)//' processes of this machine'
+            fewer = 'fewer processes on a machine, '
+         end if
+      end if
       call fatal_error(error, exit_memory, 'out of memory: '//purpose//' need '// &
                        in_mebibytes(bytes + head_room)//', available are '// &
-                       in_mebibytes(available_memory(sharers))//new_line('a')// &
-                       'mend: a coarser mesh, fewer harmonics, or a larger memory limit')
+                       in_mebibytes(available_memory(sharers))//share//new_line('a')// &
+                       'mend: '//fewer//'a coarser mesh, fewer harmonics, or a larger memory limit')
    end subroutine require_memory
 
    !> Bytes that data of this process may still take, by what is found and what the user allows

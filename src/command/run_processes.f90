@@ -2,7 +2,7 @@
 module axijoint_command_run_processes
    use axijoint_base_children, only : child_type, add_word, start_child, look_at_child, ask_to_end, &
       how_it_ended, pause_a_moment, no_program
-   use axijoint_base_error, only : exit_stopped
+   use axijoint_base_error, only : exit_memory, exit_stopped
    use axijoint_base_kinds, only : i8
    use axijoint_base_memory, only : free_memory
    use axijoint_base_progress, only : tell_below
@@ -47,7 +47,7 @@ contains
             if (deck_of(k) > 0) then
                call look_at_child(children(k))
                if (children(k)%code < 0) cycle
-               call note_end(command%decks(deck_of(k))%text, children(k)%code)
+               call note_end(command%decks(deck_of(k))%text, children(k)%code, size(children), mebibytes)
                codes(deck_of(k)) = children(k)%code
                ends = ends .or. children(k)%code == exit_stopped
                deck_of(k) = 0
@@ -73,13 +73,18 @@ contains
       end do
    end subroutine run_in_processes
 
-   !> Tell how a process ended that could say nothing itself
-   subroutine note_end(deck, code)
+   !> Tell how a process ended that could say nothing itself, and of one without memory what it does not know: that others share it
+   subroutine note_end(deck, code, n_processes, mebibytes)
       !> Its deck
       character(len=*), intent(in) :: deck
-      !> Its exit code
-      integer, intent(in) :: code
+      !> Its exit code, the number of processes
+      integer, intent(in) :: code, n_processes
+      !> The memory of one
+      integer(i8), intent(in) :: mebibytes
 
+      if (code == exit_memory .and. n_processes > 1) call tell_below('axijoint: '//deck_name(deck)// &
+         ': the limit is the share of one of '//to_text(n_processes)//' processes, '//to_text(mebibytes)// &
+         ' MiB; fewer --processes leave more to each')
       if (code >= no_program) call tell_below('axijoint: '//deck_name(deck)//': its process '//how_it_ended(code))
    end subroutine note_end
 

@@ -48,6 +48,12 @@ def same_results(program, folder):
     return faults
 
 
+def little_memory(program, folder):
+    """Who has too little of the memory that processes share is told that it is a share"""
+    ran = program.run('run', '--processes', '2', *decks_in(folder)[:2], '-o', 'out', '--memory', '40', folder=folder)
+    return ran.ended_with(6) + expected('words', 2, ran.err.count('the limit is the share of one of 2 processes, '))
+
+
 def begin_long(program, folder, *options):
     """Two decks that take long and one that does not, by two processes, once both of them are at work; with their numbers"""
     text = read_text(os.path.join(INPUTS, 'monopile.dat')).replace('\n    4   17\n', '\n   48  193\n')
@@ -146,4 +152,5 @@ def tests(program):
     """All of them"""
     return [Test(f'batch: {name}', lambda folder, check=check: check(program, folder)) for name, check in (
         ('same results', same_results), ('a process dies', one_dies), ('told to end', told_to_end),
-        ('told to end at any moment', told_at_random), ('names', names))]
+        ('told to end at any moment', told_at_random), ('names', names),
+        ('little memory', little_memory))]
