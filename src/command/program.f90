@@ -67,7 +67,7 @@ contains
       end if
       if (present(team)) then
          allocate (command%options%team, source=team)
-         if (team%size > 1 .and. .not. any(command%name == ['run  ', 'study'])) then
+         if (team%size > 1 .and. .not. any(command%name == [character(len=5) :: 'run', 'study', 'print'])) then
             call fatal_error(error, exit_deck, 'only `run` and `study` work in several processes'// &
                              new_line('a')//'mend: one process for `'//command%name//'`')
             call print_error('', error)
