@@ -45,6 +45,9 @@ command -v "$AXIJOINT" >/dev/null || {
    exit 127
 }
 export OMP_NUM_THREADS=${SLURM_CPUS_PER_TASK:-1} # what the job has
+memory=${SLURM_MEM_PER_NODE#0}                     # 0 is all of the machine
+# Processes of a node share its memory; 2(x3),1 is two on each of three nodes and one on the last
+tasks=$(echo "${SLURM_TASKS_PER_NODE:-1}" | sed 's/([^)]*)//g' | tr ',' '\n' | sort -n | tail -n 1)
 
 # shellcheck disable=SC2086  # several words
-run_job ${MPIRUN:-mpirun --bind-to none} "$AXIJOINT" run "$@" --resume
+run_job ${MPIRUN:-mpirun --bind-to none} "$AXIJOINT" run "$@" --resume ${memory:+--memory $((memory/tasks))}
