@@ -23,18 +23,34 @@
 
 # Runs a program and ends the job with its exit code. `B:` sends the signal to this shell alone, which hands it on;
 # a signal also ends `wait`, which is then called again. The job goes back to the queue if the program was stopped by
-# the signal (exit code 75) while the job was to run on: not if it was cancelled, and not if Slurm puts it back itself.
+# the signal (exit code 75) while the job was to run on: not if it was cancelled, not if Slurm puts it back itself, and
+# not if it has kept nothing since it began, for then its next start would come no farther.
 run_job() { # program, arguments
-   local code seen=0
+   local begun code folder=. kept=unknown last='' seen=0 word
+   for word in "$@"; do
+      [ "$last" != -o ] || folder=$word
+      last=$word
+   done
+   begun=$folder/.begun.$SLURM_JOB_ID
+   { mkdir -p "$folder" && : >"$begun"; } 2>/dev/null || begun=''
    signals=0
    trap 'signals=$((signals + 1)); kill -USR1 "$program" 2>/dev/null' USR1 TERM
    "$@" &
    program=$!
    while wait "$program"; code=$?; [ "$seen" -lt "$signals" ]; do seen=$signals; done
+   if [ -n "$begun" ]; then
+      kept=$(find "$folder" -maxdepth 1 -newer "$begun" \( -name '*.state' -o -name '*.h5' -o -name '*.rows' \) -print -quit)
+      rm -f "$begun"
+   fi
    if [ "$signals" -gt 0 ] && [ "$code" -eq 75 ] &&
       [ "$(squeue --noheader --job="$SLURM_JOB_ID" --format=%T)" = RUNNING ]; then
-      echo "The job goes back to the queue" >&2
-      scontrol requeue "$SLURM_JOB_ID"
+      if [ -n "$kept" ]; then
+         echo "The job goes back to the queue" >&2
+         scontrol requeue "$SLURM_JOB_ID"
+      else
+         echo "The job ends, for in its time nothing was kept that it could go on from: give it more time" \
+            "(axijoint estimate --slurm DECK says how much), or room for its files" >&2
+      fi
    fi
    exit "$code"
 }

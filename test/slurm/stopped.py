@@ -93,6 +93,20 @@ def out_of_time(place):
                        again='The job goes back to the queue', text=text, whole='whole/longer')
 
 
+def in_vain(place):
+    """A job in whose time nothing was kept would begin the same again and again: it ends, and says so"""
+    write(place.folder, 'history.dat', 'TITLE\nTube\nCONTROL\n12\nMATERIALS\n1,2E5,0.3\nBLOCKS\n1,1,8,160,160\n1,0,2,1\nFACES\n'
+          '1,1,1,0,2,0\n2,1,2,0,2,1\nFIXEDFACES\n1,111\nSHAPES\n1,PATCH,-20,20\nPRESSURES\n2,,1,1,,1\nEND\n')
+    job = place.submit('one.sh', 'history.dat', '-o', 'out')
+    place.cluster.wait_for(lambda: os.path.exists(place.path('out', 'history.lock')), 'the run')
+    place.cluster.command('scancel', '--signal=USR1', '--batch', job)
+    faults = expected('exit code', [{0: 75}], place.cluster.finish(job))
+    text = place.output(job)
+    faults += [f'{words!r} is not said' for words in ('stopped by SIGUSR1 before anything was kept', 'nothing was kept that it could go on from')
+               if words not in text]
+    return faults + expected('files', [], os.listdir(place.path('out')))
+
+
 def cancelled(place):
     """A job that is cancelled is stopped, and stays cancelled; submitted again it goes on"""
     write(place.folder, 'history.dat', place.history.text())
@@ -135,4 +149,4 @@ def lines_of(path):
     return pathlib.Path(path).read_text(encoding='utf-8').count('\n') if os.path.exists(path) else 0
 
 
-CHECKS = (warned, mpi_warned, pre_empted, out_of_time, cancelled, study_warned)
+CHECKS = (warned, mpi_warned, pre_empted, out_of_time, in_vain, cancelled, study_warned)
