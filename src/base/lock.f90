@@ -311,7 +311,7 @@ contains
       else if (same_machine(owner%process, own%process)) then
          call fatal_error(error, exit_in_use, 'another run uses this name: process '// &
             to_text(owner%process%id)//' on this host, '//owner%process%host//', since '// &
-            owner%since//' ('//owner%purpose//')'//wait)
+            owner%since//' ('//owner%purpose//')'//wait//together())
       else
          call fatal_error(error, exit_in_use, 'another run uses this name: process '// &
             to_text(owner%process%id)//' on another host, '//owner%process%host//', since '// &
@@ -319,6 +319,25 @@ contains
             own%process%host//wait//'; if it is no more, remove '//path)
       end if
    end subroutine refuse
+
+   !> What to do if both were started as one: a program that knows nothing of MPI runs the same deck in each process
+   function together() result(text)
+      !> The end of a message; empty if this process was started alone
+      character(len=:), allocatable :: text
+
+      character(len=*), parameter :: counts(3) = [character(len=20) :: 'OMPI_COMM_WORLD_SIZE', 'PMI_SIZE', 'SLURM_STEP_NUM_TASKS']
+      character(len=:), allocatable :: n
+      integer :: k
+
+      text = ''
+      do k = 1, size(counts)
+         n = environment(trim(counts(k)))
+         if (len(n) == 0 .or. n == '1' .or. verify(n, '0123456789') > 0) cycle
+         text = '; if that is one of the '//n//' processes that this one was started with, take the program built for MPI, '// &
+                'or start one'
+         return
+      end do
+   end function together
 
    !> The error of a lock that cannot be made
    subroutine cannot_make(path, errno, error)

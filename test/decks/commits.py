@@ -229,6 +229,12 @@ def left_behind(program, folder):
             found += expected('the lock', text, read_text(lock))
             os.remove(lock)
         faults += [f'{what}: {fault}' for fault in found + place.mixed()]
+    # a program without MPI in several processes fights with itself
+    lock = write(place.results, 'job.lock', lock_text(**own))
+    for n, wanted in (('3', True), ('1', False)):
+        ran = place.run(OMPI_COMM_WORLD_SIZE=n)
+        faults += expected(f'{n} processes', wanted, f'one of the {n} processes that this one was started with' in ran.stderr)
+    os.remove(lock)
     return faults
 
 
