@@ -1,5 +1,6 @@
 """Load cases add up, and a load turned about the axis turns its results"""
 import json
+import math
 import os
 
 import listing
@@ -112,9 +113,72 @@ def increments_of_cases(program, folder):
     return faults + expected('of all cases', False, 'of case' in read_text(os.path.join(folder, 'plain.lis')))
 
 
+# A pile pressed on ground by 1 at r = 0 to 0.5, pushed by 0.4 at z = 0.5, held by nothing but its shaft and its toe
+INTERFACES = """TITLE
+Pile
+CONTROL
+1,17,,,,,NEWTON
+MATERIALS
+1,2E4,0.2
+LAWS
+1,1E4,2E4,1E4,0,30,PAPER
+2,1E4,2E4,1E4,,,ELASTIC
+BLOCKS
+1,1,8,2,4
+0,-1,0.5,0
+1,1,8,2,2
+0,0,0.5,0.5
+2,1,8,3,4
+0.5,-1,2,0
+2,1,8,2,2
+0,-2,0.5,-1
+2,1,8,3,2
+0.5,-2,2,-1
+FACES
+1,1,0,0.5,0.5,0.5
+2,1,0.5,-1,0.5,0
+3,2,0.5,-1,0.5,0
+4,1,0,-1,0.5,-1
+5,2,0,-1,0.5,-1
+6,2,0,-2,2,-2
+INTERFACES
+1,2,3,JOINTS,shaft
+2,4,5,JOINTS,toe
+FIXEDFACES
+6,111
+RESULTANTS
+1,AXIAL,-1
+1,LATERAL,0.4,{angle}
+END
+"""
+
+
+def interfaces_listed(program, folder):
+    """What interfaces carry balances the loads of the body that they hold, whatever the angle; areas and their shares"""
+    faults, shares = [], []
+    for angle in (0, 90):
+        ran = program.run('run', write(folder, 'pile.dat', INTERFACES.format(angle=angle)), '-o', folder)
+        text = read_text(os.path.join(folder, 'pile.lis'))
+        lines = text[text.index('RESULTANTS OF INTERFACES'):].split('\n')[3:5]
+        rows = {line.split()[0]: [float(word) for word in line.split()[1:]] for line in lines}
+        total = [sum(column) for column in zip(*(row[:6] for row in rows.values()), strict=True)]
+        along = [0.4, 0] if angle == 0 else [0, 0.4]
+        # the load is 1 downwards, 0.4 sideways at z = 0.5; a moment lifts the side that it is named after
+        wanted = [1, *(-x for x in along), *(0.5*x for x in along), 0]
+        faults += ran.ended_with(0)
+        faults += [f'{angle} degrees: {total}' for one, other in zip(total, wanted, strict=True) if abs(one - other) > 1e-5]
+        for name, area in (('shaft', math.pi), ('toe', math.pi/4)):
+            if abs(rows[name][6] - area) > 1e-6 or abs(sum(rows[name][7:]) - 1) > 0.002:
+                faults.append(f'{name}: {rows[name]}')
+        faults += expected('elastic joints', [1, 0, 0], rows['toe'][7:]) + expected('a part slips or opens', True, rows['shaft'][7] < 1)
+        shares.append(rows['shaft'][7:])
+    return faults + expected('shares at 90 degrees', True, max(abs(a - b) for a, b in zip(*shares, strict=True)) < 0.03)
+
+
 def tests(program):
     """The tests of this module"""
     return [Test('load cases: combinations', lambda folder: combinations_add_up(program, folder)),
             Test('load cases: turned load', lambda folder: turned_load(program, folder)),
             Test('load cases: not combined', lambda folder: not_combined(program, folder)),
-            Test('load cases: increments', lambda folder: increments_of_cases(program, folder))]
+            Test('load cases: increments', lambda folder: increments_of_cases(program, folder)),
+            Test('load cases: interfaces', lambda folder: interfaces_listed(program, folder))]

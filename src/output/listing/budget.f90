@@ -82,7 +82,7 @@ contains
       integer :: c, i
 
       total = sum_of_shares(results%budget)
-      call write_result_heading(file, "ERRORS OF RESULTANTS ON CUTS (estimates, whatever the angle; - not known)", &
+      call write_result_heading(file, "ERRORS ON CUTS (estimates; shear and moment whatever their angle; - not known)", &
          results%converged)
       call file%put("     cut           z    axial force          shear         moment         torque")
       do c = 1, size(model%cuts)

@@ -22,6 +22,7 @@ module axijoint_output_listing_contents
       write_joints
    use axijoint_output_listing_model, only : write_warnings, write_model, write_materials, &
       write_joint_materials, write_increments
+   use axijoint_output_listing_interfaces, only : write_interface_resultants
    use axijoint_output_listing_sections, only : write_sections, write_cuts, write_named_points
    use axijoint_output_listing_solution, only : write_equations, write_convergence, &
       write_displacements, write_total_displacements, write_reactions, write_equilibrium, &
@@ -98,6 +99,7 @@ contains
          call write_nodal_stresses(file, model, results)
          call write_joint_results(file, model, results)
          call write_edge(file, model, results)
+         call write_interface_resultants(file, model, results)
          call write_sections(file, model, results)
          call write_cuts(file, model, results)
          call write_named_points(file, model, results, series)
