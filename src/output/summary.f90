@@ -98,7 +98,7 @@ contains
          call put_pair(file, "left_out", left_out_text(results))
          call put_pair(file, "errors", errors_text(results))
          call put_pair(file, "point_errors", point_errors_json(model, results))
-         call put_pair(file, "cut_errors", cut_errors_json(model, results))
+         call put_cut_errors(file, model, results)
          call put_pair(file, "singular", singular_json(model, results))
          call put_pair(file, "error_seconds", error_seconds_text(results))
          call put_pair(file, "increment_seconds", json_number(results%increment_seconds))
@@ -269,38 +269,37 @@ contains
       json = json//"]"
    end function point_errors_json
 
-   !> What is estimated of the resultants on each cut
-   pure function cut_errors_json(model, results) result(json)
+   !> What is estimated of the resultants on each cut, a line a cut: there may be many
+   subroutine put_cut_errors(file, model, results)
+      !> The file
+      class(text_file_type), intent(inout) :: file
       !> The job
       type(model_type), intent(in) :: model
       !> Results
       type(results_type), intent(in) :: results
-      !> A JSON array
-      character(len=:), allocatable :: json
 
       type(error_share_type) :: total
-      character(len=:), allocatable :: name
+      real(wp), allocatable :: sizes(:, :)
+      character(len=:), allocatable :: line
       integer :: c, k
 
-      json = "[]"
-      if (.not. allocated(results%budget)) return
+      if (.not. allocated(results%budget) .or. size(model%cuts) == 0) then
+         call put_pair(file, "cut_errors", "[]")
+         return
+      end if
       total = sum_of_shares(results%budget)
-      associate (sizes => sizes_on_cuts(results%cut_resultants))
-         json = "["
-         do c = 1, size(model%cuts)
-            if (c > 1) json = json//", "
-            json = json//'{"cut": '//json_number(model%cuts(c)%label)//', "z": '//json_number(model%cuts(c)%z)
-            do k = 1, n_kinds
-               name = trim(kind_names(k))
-               if (index(name, " ") > 0) name(index(name, " "):index(name, " ")) = "_"
-               json = json//', "'//name//'": '//json_number(sizes(k, c))//', "'//name//'_error": '// &
-                      known_number(total%on_cuts(k, c))
-            end do
-            json = json//"}"
+      sizes = sizes_on_cuts(results%cut_resultants)
+      call file%put('  "cut_errors": [')
+      do c = 1, size(model%cuts)
+         line = '    {"cut": '//json_number(model%cuts(c)%label)//', "z": '//json_number(model%cuts(c)%z)
+         do k = 1, n_kinds
+            line = line//', "'//trim(kind_names(k))//'": '//json_number(sizes(k, c))//', "'//trim(kind_names(k))//'_error": '// &
+                   known_number(total%on_cuts(k, c))
          end do
-      end associate
-      json = json//"]"
-   end function cut_errors_json
+         call file%put(line//trim(merge("},", "} ", c < size(model%cuts))))
+      end do
+      call file%put("  ],")
+   end subroutine put_cut_errors
 
    !> Summary of a run that ended with an error; what is not known is null
    subroutine write_failure_summary(file, run, messages)

@@ -24,8 +24,8 @@ module axijoint_analysis_error_cut_errors
 
    !> Kinds of resultants: axial force, lateral force and moment in any direction, torque
    integer, parameter :: n_kinds = 4, kind_force = 1, kind_lateral = 2, kind_moment = 3, kind_torque = 4
-   !> Their names
-   character(len=13), parameter :: kind_names(n_kinds) = [character(len=13) :: 'axial force', 'lateral force', 'moment', 'torque']
+   !> Their names in summaries
+   character(len=13), parameter :: kind_names(n_kinds) = [character(len=13) :: 'axial_force', 'lateral_force', 'moment', 'torque']
    !> Errors are measured by no less than this part of the largest force, or of the larger of moment and torque: a force that is
    !> next to nothing on all cuts is no measure
    real(wp), parameter :: slight = 0.01_wp
