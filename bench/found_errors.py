@@ -132,8 +132,9 @@ def cut_error(coarse, fine):
     own, better = (result.read("cuts/resultants") for result in (coarse, fine))
     told = coarse.read("errors/on_cuts")[0, :, 0] >= 0
     wrong, scale = _sizes(own - better)[told].max(0, initial=0.0), _sizes(own).max(0)
-    for kinds in ((0, 1), (2, 3)):  # a force that is next to nothing is no measure, nor is a moment
-        scale[list(kinds)] = np.maximum(scale[list(kinds)], 0.01*scale[list(kinds)].max())
+    r, z = coarse.mesh.coordinates.T
+    arm = np.array([1, 1, *[max(r.max(), np.ptp(z))]*2])
+    scale = np.maximum(scale, 0.01*(scale/arm).max()*arm)  # a force that is next to nothing is no measure, nor is a moment
     return (wrong[scale > 0]/scale[scale > 0]).max(initial=0.0)
 
 

@@ -1,6 +1,7 @@
 """Every figure is written; only where matplotlib is installed"""
 import contextlib
 import io
+import json
 import os
 import pathlib
 import subprocess
@@ -336,6 +337,16 @@ class Monopile(unittest.TestCase):
                 segment = abs(soil.z - depth).argmin()
                 np.testing.assert_array_equal(line.get_xdata()[1:], x[:, segment])
                 np.testing.assert_array_equal(line.get_ydata()[1:], y[:, segment])
+
+    def test_how_far_cuts_may_be_off(self):
+        """The errors of resultants on cuts are those of the summary; of earlier increments they are not known"""
+        (_, table), = plot.tables(self.result, ["pile"], plot.Options())
+        last = table.where(table["increment"] == table["increment"].max())
+        told = {cut["z"]: cut for cut in json.loads(pathlib.Path(self.path).with_suffix(".json").read_text())["cut_errors"]}
+        for z, moment, axial in zip(last["z"], last["M_error"], last["N_error"]):
+            self.assertAlmostEqual(moment, told[z]["moment_error"], delta=1e-9)
+            self.assertAlmostEqual(axial, told[z]["axial_force_error"], delta=1e-9)
+        self.assertTrue(np.isnan(table.where(table["increment"] == 1)["M_error"]).all())
 
     def test_points_along_the_load(self):
         """Force, moment and displacement of POINTS turn with the angle"""

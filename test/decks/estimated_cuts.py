@@ -149,6 +149,33 @@ def tube(program, folder):
     return faults
 
 
+def one_kind(program, folder):
+    """Where axial force alone acts, rounding of moments is no error of a moment that is zero"""
+    deck = PILE.format(control='4,17,,,,,NEWTON', law=',0,30,PAPER', n=2, n2=4, angle=0, more='')
+    start = deck.index('RESULTANTS')
+    deck = deck[:start] + """CASE
+1,axial
+RESULTANTS
+1,AXIAL,1
+CASE
+2,lateral
+RESULTANTS
+1,LATERAL,0.4
+COMBINE
+1,1,1,2,1
+INCREMENTS
+1,,,1
+END
+"""
+    faults = []
+    for one, other in (('1,,,1', (0, 1)), ('1,,,2', (1, 0))):
+        summary, _ = solved(program, folder, 'one', deck.replace('1,,,1', one))
+        largest = [max(cut[kind] for cut in summary['cut_errors']) for kind in ('axial_force', 'lateral_force')]
+        share = summary['errors']['sum']['cuts']
+        faults += expected('relative', True, 1e-4 < share < 0.1) + expected(f'{one}: largest', True, largest[other.index(0)] > 0)
+    return faults
+
+
 def without(program, folder):
     """A target of cuts needs some"""
     deck = PILE.format(control='1,5', law=',,,ELASTIC', n=2, n2=4, angle=0, more='ERROR\n1,CUTS\n')
@@ -159,5 +186,5 @@ def without(program, folder):
 
 def tests(program):
     """The tests of this module"""
-    named = {'pile': pile, 'tube': tube, 'without cuts': without}
+    named = {'pile': pile, 'tube': tube, 'one kind': one_kind, 'without cuts': without}
     return [Test(f'estimated cuts: {what}', lambda folder, check=check: check(program, folder)) for what, check in named.items()]

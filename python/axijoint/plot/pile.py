@@ -157,7 +157,8 @@ def cuts_of(result, options):
 def profile_table(result, options):
     """Deflection, rotation and resultants along the pile, a row for each increment and cut.
 
-    Moments and rotations lean the pile towards theta; the axial force is tension.
+    Moments and rotations lean the pile towards theta; the axial force is tension. How far shear and moment may be off, whatever
+    their angle, and the axial force, is known of the last increment alone: nan elsewhere.
     """
     _, rows = cuts_of(result, options)
     history = result.history
@@ -168,11 +169,22 @@ def profile_table(result, options):
 
     def turned(values, kind):
         return along(values, kind, options.angle).ravel()
+    off = np.full((len(places), len(rows), 3), np.nan)
+    off[np.asarray(places) == len(history.increment) - 1] = cut_errors(result)[rows, :3]
     return Table({"increment": np.repeat(numbers, len(rows)),
                   "load_factor": np.repeat(history["load_factor"][places], len(rows)),
                   "z": np.tile(z, len(places)), "theta": np.full(len(places)*len(rows), options.angle),
                   "v": turned(motion, FORCE), "psi": -turned(motion, MOMENT),
-                  "H": turned(force, FORCE), "M": -turned(force, MOMENT), "N": force[..., AXIAL].ravel()})
+                  "H": turned(force, FORCE), "M": -turned(force, MOMENT), "N": force[..., AXIAL].ravel(),
+                  "H_error": off[..., 1].ravel(), "M_error": off[..., 2].ravel(), "N_error": off[..., 0].ravel()})
+
+
+def cut_errors(result):
+    """How far axial force, shear, moment and torque on each cut may be off, all sources together: (cuts, 4); nan if not known."""
+    if not result.has("errors/on_cuts"):
+        return np.full((len(result.read("cuts/z")), 4), np.nan)
+    shares = result.read("errors/on_cuts")
+    return np.where((shares < 0).any(axis=0), np.nan, shares.sum(axis=0))
 
 
 def _row(history, increment):
@@ -200,6 +212,9 @@ def draw_profile(result, options):
         for one, (name, _) in zip(axes, panels):
             one.plot(here[name], here["z"], label=f"{number} (load factor {here['load_factor'][0]:g})",
                      markevery=max(1, here.rows//8), **style.curve(k))
+            if name in "HMN":
+                off = here[f"{name}_error"]
+                one.fill_betweenx(here["z"], here[name] - off, here[name] + off, color=one.lines[-1].get_color(), alpha=0.2, lw=0)
     for one, (name, label) in zip(axes, panels):
         one.axvline(0, color="0.7", lw=0.5, zorder=0)
         one.set_xlabel(label)
@@ -212,7 +227,8 @@ def draw_profile(result, options):
     style.legend(figure, "lower center", *axes[0].get_legend_handles_labels(), ncols=3, title="increment")
     figure.suptitle(options.title if options.title is not None else
                     f"Body {body} on its cuts at {style.degrees(options.angle)}: the part above on that below; "
-                    "moment and rotation lean it that way, tension is positive", fontsize=8)
+                    "moment and rotation lean it that way, tension is positive" + (
+                        "\nshaded, of the last increment: as far as it may be off" if np.isfinite(table["M_error"]).any() else ""), fontsize=8)
     return figure
 
 

@@ -64,7 +64,10 @@ contains
       do i = 1, size(budget)
          if (results%at_rest) budget(i)%at_points = min(0.0_wp, budget(i)%at_points)
          call compare_points(results%point_size, results%discretization%largest_displacement, budget(i))
-         budget(i)%cuts = relative_on_cuts(budget(i)%on_cuts, sizes)
+         associate (x => model%mesh%coordinates)
+            budget(i)%cuts = relative_on_cuts(budget(i)%on_cuts, sizes, &
+               max(maxval(x(1, :)), maxval(x(2, :)) - minval(x(2, :))))
+         end associate
       end do
       if (results%at_rest) budget%displacement = min(0.0_wp, budget%displacement)  ! nothing is left to be off
    end function new_budget

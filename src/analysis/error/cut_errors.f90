@@ -13,7 +13,6 @@ module axijoint_analysis_error_cut_errors
    use axijoint_base_kinds, only : wp
    use axijoint_fe_mode, only : is_torsion
    use axijoint_joints_joint_errors, only : joint_change_type
-   use axijoint_joints_residual, only : ratio
    use axijoint_model_material, only : elasticity
    use axijoint_model_mesh, only : mesh_type, n_elements, n_nodes
    use axijoint_model_model, only : model_type, held_components
@@ -26,8 +25,8 @@ module axijoint_analysis_error_cut_errors
    integer, parameter :: n_kinds = 4, kind_force = 1, kind_lateral = 2, kind_moment = 3, kind_torque = 4
    !> Their names in summaries
    character(len=13), parameter :: kind_names(n_kinds) = [character(len=13) :: 'axial_force', 'lateral_force', 'moment', 'torque']
-   !> Errors are measured by no less than this part of the largest force, or of the larger of moment and torque: a force that is
-   !> next to nothing on all cuts is no measure
+   !> Errors are measured by no less than this part of the largest force, or of a moment that it would have across the bodies: a
+   !> force that is next to nothing on all cuts is no measure
    real(wp), parameter :: slight = 0.01_wp
    !> Stiffness k h over that of the body from which on springs are stiff: at 1.2 a cut at their end was told 15 times its error, at
    !> 0.3 cuts through them as well as others
@@ -49,21 +48,25 @@ contains
    end function sizes_on_cuts
 
    !> Largest error of any kind over the largest resultant of the kind, of the cuts of which it is known; negative if of none
-   pure real(wp) function relative_on_cuts(errors, sizes) result(relative)
+   pure real(wp) function relative_on_cuts(errors, sizes, extent) result(relative)
       !> Errors and resultants, shape (n_kinds, cuts); errors negative if not known
       real(wp), intent(in) :: errors(:, :), sizes(:, :)
+      !> Extent of the bodies [length]
+      real(wp), intent(in) :: extent
 
-      real(wp) :: scale(n_kinds)
+      real(wp), dimension(n_kinds) :: arm, least
 
       relative = -1.0_wp
       if (size(sizes, 2) == 0) return
       if (all(errors(1, :) < 0.0_wp)) return
-      scale = maxval(sizes, 2)
-      scale([kind_force, kind_lateral]) = max(scale([kind_force, kind_lateral]), &
-         slight*maxval(scale([kind_force, kind_lateral])))
-      scale([kind_moment, kind_torque]) = max(scale([kind_moment, kind_torque]), &
-         slight*maxval(scale([kind_moment, kind_torque])))
-      relative = maxval(ratio(maxval(errors, 2), scale))
+      arm = 1.0_wp
+      arm([kind_moment, kind_torque]) = extent
+      least = slight*maxval(maxval(sizes, 2)/arm)*arm
+      if (maxval(least) > 0.0_wp) then
+         relative = maxval(maxval(errors, 2)/max(least, maxval(sizes, 2)))
+      else if (.not. any(errors > 0.0_wp)) then
+         relative = 0.0_wp  ! nothing acts, and nothing is off
+      end if
    end function relative_on_cuts
 
    !> What a change of the joints does to the resultants, with the displacements that follow from it
