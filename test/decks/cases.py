@@ -175,10 +175,38 @@ def interfaces_listed(program, folder):
     return faults + expected('shares at 90 degrees', True, max(abs(a - b) for a, b in zip(*shares, strict=True)) < 0.03)
 
 
+def round_the_circle(program, folder):
+    """Least and largest stresses of a load that points anywhere are those along 0 degrees, turned; at such an angle of OUTPUT the table
+    there has the same; in a job round the axis there is no table"""
+    found, faults = {}, []
+    for angle in (0, 47):
+        deck = INTERFACES.format(angle=angle).replace('FIXEDFACES', f'OUTPUT\n{angle},{angle + 90},{angle + 180}\nFIXEDFACES')
+        faults += program.run('run', write(folder, 'pile.dat', deck), '-o', folder).ended_with(0)
+        text = read_text(os.path.join(folder, 'pile.lis'))
+        lines = text[text.index('EXTREMES OF TOTAL STRESSES AT GAUSS POINTS ROUND THE CIRCLE'):].split('\n')[3:9]
+        rows = {line.split()[0]: [float(word) for word in line.split()[1:]] for line in lines}
+        found[angle] = rows
+        here = text[text.index(f'TOTAL STRESSES AT GAUSS POINTS, theta = {angle} degrees'):].split('\n')
+        sigma_z = [float(line.split()[5]) for line in here[3:here.index('')] if line.strip() and line.split()[0].isdigit()]
+        faults += expected(f'least at {angle} degrees', True, abs(rows['sigma_z'][4] - angle) < 1
+                           and abs(min(sigma_z) - rows['sigma_z'][0]) < 1e-3*abs(min(sigma_z)))
+    for name, row in found[0].items():
+        turned = found[47][name]
+        scale = max(abs(row[0]), abs(row[5]))
+        for k in (0, 5):
+            apart = (turned[k + 4] - row[k + 4] - 47) % 360
+            if abs(turned[k] - row[k]) > 1e-2*scale or name.startswith('sigma') and turned[k + 1] == row[k + 1] and min(apart, 360 - apart) > 3:
+                faults.append(f'{name}: {row}, turned {turned}')
+    plain = INTERFACES.format(angle=0).replace('1,LATERAL,0.4,0\n', '')
+    program.run('run', write(folder, 'plain.dat', plain), '-o', folder)
+    return faults + expected('round the axis', False, 'ROUND THE CIRCLE' in read_text(os.path.join(folder, 'plain.lis')))
+
+
 def tests(program):
     """The tests of this module"""
     return [Test('load cases: combinations', lambda folder: combinations_add_up(program, folder)),
             Test('load cases: turned load', lambda folder: turned_load(program, folder)),
             Test('load cases: not combined', lambda folder: not_combined(program, folder)),
             Test('load cases: increments', lambda folder: increments_of_cases(program, folder)),
-            Test('load cases: interfaces', lambda folder: interfaces_listed(program, folder))]
+            Test('load cases: interfaces', lambda folder: interfaces_listed(program, folder)),
+            Test('load cases: round the circle', lambda folder: round_the_circle(program, folder))]

@@ -9,7 +9,7 @@ module axijoint_analysis_core_totals
    private
    public :: circle_type, new_circle, total_displacement, total_stress, n_unknowns
    public :: peak_type, of_length, of_pressure, of_shear, of_component, measure, largest, largest_displacement, &
-      largest_vector, count_states
+      largest_vector, extremes_round, count_states
 
    !> What of three components the largest is looked for of: the length of all; the second, turned round; the length of the
    !> two others; any of them, without its sign
@@ -251,6 +251,107 @@ contains
          measure = maxval(abs(x))
       end select
    end function measure
+
+   !> Least and largest of a component round the circle, each at the first place that has it. Harmonics above 0 add no more than
+   !> the sum of their amplitudes, by which most places need not be looked at
+   pure subroutine extremes_round(modes, amplitude, along, extremes)
+      !> The modes
+      type(mode_type), intent(in) :: modes(:)
+      !> Amplitudes, shape (places, modes)
+      real(wp), intent(in) :: amplitude(:, :)
+      !> Whether the component goes with theta components
+      logical, intent(in) :: along
+      !> The least and the largest; no place if there are no places
+      type(peak_type), intent(out) :: extremes(2)
+
+      real(wp), allocatable :: factor(:, :)
+      type(peak_type) :: likely, peak
+      real(wp) :: most(size(amplitude, 1)), sign, step
+      integer :: i, k, last, n, place
+
+      if (size(most) == 0 .or. size(modes) == 0) return
+      n = max(least_intervals, intervals_of_wave*maxval(modes%harmonic))
+      last = n - 1
+      if (all(modes%family == family_symmetric) .and. .not. along) last = n/2
+      step = 2.0_wp*pi/real(n, wp)
+      allocate (factor(0:last, size(modes)))
+      do i = 0, last
+         factor(i, :) = factors(step*real(i, wp))
+      end do
+      do k = 1, 2
+         sign = merge(-1.0_wp, 1.0_wp, k == 1)
+         most = 0.0_wp
+         do i = 1, size(modes)
+            if (modes(i)%harmonic == 0) then
+               most = most + sign*factor(0, i)*amplitude(:, i)
+            else
+               most = most + abs(amplitude(:, i))
+            end if
+         end do
+         likely = peak_type()
+         peak = peak_type()
+         call look(maxloc(most, 1, mask=ieee_is_finite(most)), likely)
+         do place = 1, size(most)
+            if (.not. ieee_is_finite(most(place))) cycle
+            if (most(place) >= likely%value - same*abs(likely%value)) call look(place, peak)
+         end do
+         extremes(k) = peak
+         extremes(k)%value = sign*peak%value
+      end do
+
+   contains
+
+      !> Factors of all modes at an angle
+      pure function factors(angle)
+         !> The angle [radian]
+         real(wp), intent(in) :: angle
+         !> Shape (modes)
+         real(wp) :: factors(size(modes))
+
+         type(circle_type) :: circle
+
+         circle = new_circle(modes, angle)
+         factors = circle%meridional
+         if (along) factors = circle%circumferential
+      end function factors
+
+      !> Look round a place: at all angles, then between those beside the best
+      pure subroutine look(place, peak)
+         !> The place; 0 if there is none
+         integer, intent(in) :: place
+         !> The largest so far, times the sign
+         type(peak_type), intent(inout) :: peak
+
+         real(wp) :: value(0:last), least, half, most, other, angle
+         integer :: at, i
+
+         if (place == 0) return
+         value = sign*matmul(factor, amplitude(place, :))
+         at = maxloc(value, 1) - 1
+         angle = step*real(at, wp)
+         most = value(at)
+         half = 0.5_wp*step
+         if (peak%place > 0) then  ! a wave rises no more between the angles than a part of what there is of waves
+            associate (rise => 1.0_wp - cos(half*real(maxval(modes%harmonic), wp)))
+               if (most + rise*sum(abs(amplitude(place, :))) < peak%value) return
+            end associate
+         end if
+         least = same*step
+         do while (half > least)  ! the middle of three, ever nearer
+            do i = -1, 1, 2
+               other = sign*dot_product(factors(angle + i*half), amplitude(place, :))
+               if (.not. other > most) cycle
+               most = other
+               angle = angle + i*half
+               exit
+            end do
+            half = 0.5_wp*half
+         end do
+         if (peak%place > 0 .and. .not. most > peak%value + same*abs(peak%value)) return
+         peak = peak_type(most, place, modulo(angle, 2.0_wp*pi))
+      end subroutine look
+
+   end subroutine extremes_round
 
    !> Its length alone; zero if there is none
    pure real(wp) function largest_vector(modes, displacement) result(largest)

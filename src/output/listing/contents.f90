@@ -27,7 +27,7 @@ module axijoint_output_listing_contents
    use axijoint_output_listing_solution, only : write_equations, write_convergence, &
       write_displacements, write_total_displacements, write_reactions, write_equilibrium, &
       write_times, convergence_text
-   use axijoint_output_listing_stress, only : write_stresses, write_nodal_stresses, &
+   use axijoint_output_listing_stress, only : write_stresses, write_extremes_round, write_nodal_stresses, &
       write_joint_results
    use axijoint_output_listing_sweep, only : picture_type, write_pictures
    use axijoint_output_table_interfaces, only : write_interfaces
@@ -96,6 +96,7 @@ contains
          call write_displacements(file, model, results)
          call write_total_displacements(file, model, results)
          call write_stresses(file, model, results)
+         call write_extremes_round(file, model, results)
          call write_nodal_stresses(file, model, results)
          call write_joint_results(file, model, results)
          call write_edge(file, model, results)

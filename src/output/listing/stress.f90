@@ -1,20 +1,22 @@
 !> Tables of the listing that show stresses of the solids and of the joints
 module axijoint_output_listing_stress
    use axijoint_analysis_core_results, only : results_type
-   use axijoint_analysis_core_totals, only : circle_type, new_circle, total_stress
+   use axijoint_analysis_core_totals, only : circle_type, peak_type, new_circle, total_stress, extremes_round
    use axijoint_base_kinds, only : wp, degree
    use axijoint_base_text, only : to_text
    use axijoint_element_joint_law, only : state_stick, state_slip, state_open
    use axijoint_model_interface, only : interface_name
    use axijoint_model_model, only : model_type
    use axijoint_model_request, only : print_stresses, print_nodal, print_states
+   use axijoint_output_file_columns, only : columns
+   use axijoint_output_file_headings, only : write_result_heading
    use axijoint_output_file_row, only : row_type
    use axijoint_output_file_text, only : text_file_type
    use axijoint_output_listing_choice, only : chosen_places, none_asked
    use axijoint_output_listing_extremes, only : extremes_type, begin_table
    implicit none
    private
-   public :: write_stresses, write_nodal_stresses, write_joint_results
+   public :: write_stresses, write_extremes_round, write_nodal_stresses, write_joint_results
 
    !> Columns of the number of an entry, of a point in it, and of a material
    integer, parameter :: label = 10, point_label = 3, material_label = 6
@@ -74,6 +76,39 @@ contains
          call extremes%write(file, count(listed), "element")
       end do
    end subroutine write_stresses
+
+   !> The least and the largest of each stress at the Gauss points round the circle, which angles of the deck may miss
+   subroutine write_extremes_round(file, model, results)
+      !> The listing
+      class(text_file_type), intent(inout) :: file
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Results
+      type(results_type), intent(in) :: results
+
+      type(peak_type) :: extremes(2)
+      character(len=:), allocatable :: line
+      character(len=10) :: number
+      character(len=9) :: angle
+      integer :: c, k
+
+      if (none_asked(model, print_stresses) .or. all(results%modes%harmonic == 0)) return
+      call write_result_heading(file, "EXTREMES OF TOTAL STRESSES AT GAUSS POINTS ROUND THE CIRCLE", results%converged)
+      call file%put("  column               least   element           r           z    theta"// &
+         "        largest   element           r           z    theta")
+      do c = 1, size(stress_names)
+         call extremes_round(results%modes, results%stress(c, :, :), c > 4, extremes)
+         line = "  "//stress_names(c)
+         do k = 1, 2
+            if (extremes(k)%place == 0) return
+            write (number, "(i10)") model%mesh%element_label(results%point_element(extremes(k)%place))
+            write (angle, "(f9.3)") extremes(k)%angle/degree
+            line = line//columns([extremes(k)%value], wide + 1)//number// &
+                   columns(results%point_position(:, extremes(k)%place), narrow)//angle
+         end do
+         call file%put(line)
+      end do
+   end subroutine write_extremes_round
 
    !> Stresses smoothed to the nodes, sums of all harmonics at the angles of the
    !> deck; a line for each material that a node touches
