@@ -344,7 +344,7 @@ contains
          call solve_displacements(structure, model, history%loading, results%displacement, &
             results%solves, error, difference=difference)
          call new_mesh_error(difference, mesh_error)
-         call find_held_on_cuts(model, structure, mesh_error)
+         call find_held_on_cuts(model, structure, history%loading, results%displacement, mesh_error)
          call timer%pop(phase_factor, difference%factor_share)
       else
          call solve_displacements(structure, model, history%loading, results%displacement, &

@@ -2,6 +2,7 @@
 module axijoint_analysis_error_held_error
    use omp_lib, only : omp_get_wtime
    use axijoint_analysis_core_structure, only : structure_type
+   use axijoint_analysis_fine_conditions, only : held_part
    use axijoint_analysis_fine_difference, only : difference_type, room_type, most_steps, new_difference, find_difference, &
       share_difference
    use axijoint_analysis_fine_joints, only : fine_excess
@@ -155,7 +156,8 @@ contains
       call leave_out_idle(structure, scene, field, error)
    end subroutine take_error
 
-   !> Add to the forces on nodes what the excess stress along fine joints gives more than that of the coarse ones
+   !> Add to the forces on nodes what the excess stress along fine joints gives more than that of the coarse ones. The reactions of
+   !> nodes that are held have theirs
    subroutine add_integrated(structure, points, fine, coarse, error)
       !> The structure
       type(structure_type), intent(in) :: structure
@@ -167,19 +169,24 @@ contains
       type(mesh_error_type), intent(inout) :: error
 
       real(wp), allocatable :: force(:, :), by_node(:, :), shared(:, :)
-      integer :: k
+      integer :: k, node
 
       if (.not. allocated(error%acting)) return
       allocate (shared(3, size(error%acting, 2)))
       do k = 1, size(fine, 3)
-         associate (m => structure%modes(k)%harmonic)
+         associate (m => structure%modes(k)%harmonic, equations => structure%equations)
             if (m > 1) cycle
             by_node = joint_force(points, m, fine(:, :, k), size(structure%fine%stiffness%place))
             force = by_node
             force(:, structure%fine%stiffness%place) = by_node
             call restrict(structure%fine%parents, force, shared)
-            error%acting(:, :, k) = error%acting(:, :, k) + error_over_difference*(shared &
-               - joint_force(structure%condensed%points, m, coarse(:, :, k), size(shared, 2)))
+            shared = shared - joint_force(structure%condensed%points, m, coarse(:, :, k), size(shared, 2))
+            associate (conditions => structure%fine%conditions(equations%systems(equations%system(k))%class))
+               do node = 1, size(shared, 2)
+                  shared(:, node) = shared(:, node) - held_part(conditions, structure%fine%stiffness%place(node), shared(:, node))
+               end do
+            end associate
+            error%acting(:, :, k) = error%acting(:, :, k) + error_over_difference*shared
          end associate
       end do
    end subroutine add_integrated

@@ -18,6 +18,7 @@ module axijoint_analysis_error_yielding_errors
    use axijoint_analysis_error_remembered, only : solved_way_type, look_back, follow_way, leaves_rest
    use axijoint_analysis_fine_mesh_error, only : mesh_error_type
    use axijoint_assembly_equations, only : equations_type
+   use axijoint_assembly_loading, only : loading_type
    use axijoint_base_kinds, only : wp
    use axijoint_joints_condensed, only : condensed_type
    use axijoint_joints_field, only : joint_field_type
@@ -197,7 +198,7 @@ contains
       else  ! not in a region of one thread, in which other regions would begin with new threads
          call see_in_order()
       end if
-      call find_their_effects(model, structure, size(displacement, 2), answer, changes, mesh_error, effect)
+      call find_their_effects(model, structure, history%loading, displacement, answer, changes, mesh_error, effect)
       mesh_error%seconds = mesh_error%seconds + answer%seconds + looked_back
       call share_time(omp_get_wtime() - seconds, mesh_error%seconds, changes%planes%seconds, changes%harmonics%seconds)
 
@@ -277,13 +278,15 @@ contains
    end subroutine find_other_changes
 
    !> What planes, harmonics and the answer of the joints to the mesh do to the displacements, each factor read once for all three
-   subroutine find_their_effects(model, structure, n_nodes, answer, changes, mesh_error, effect)
+   subroutine find_their_effects(model, structure, loading, displacement, answer, changes, mesh_error, effect)
       !> The job
       type(model_type), intent(in) :: model
       !> The structure
       type(structure_type), intent(inout) :: structure
-      !> Nodes
-      integer, intent(in) :: n_nodes
+      !> The loads
+      type(loading_type), intent(in) :: loading
+      !> Displacement amplitudes, shape (3, nodes, modes)
+      real(wp), intent(in) :: displacement(:, :, :)
       !> Change of the joints that answers the errors of the mesh
       type(joint_change_type), intent(inout) :: answer
       !> The changes by planes and harmonics
@@ -300,11 +303,11 @@ contains
       all(1) = changes%planes
       all(2) = changes%harmonics
       all(3) = answer
-      call find_effects(structure%equations, structure%condensed%points, n_nodes, all, effect)
+      call find_effects(structure%equations, structure%condensed%points, size(displacement, 2), all, effect)
       changes%planes = all(1)
       changes%harmonics = all(2)
       answer = all(3)
-      call find_held_on_cuts(model, structure, mesh_error)
+      call find_held_on_cuts(model, structure, loading, displacement, mesh_error)
       if (.not. answer%known .and. allocated(mesh_error%on_cuts)) deallocate (mesh_error%on_cuts)
       if (.not. answered) return
       if (allocated(mesh_error%on_cuts)) mesh_error%on_cuts = mesh_error%on_cuts &

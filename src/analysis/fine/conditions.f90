@@ -6,7 +6,7 @@ module axijoint_analysis_fine_conditions
    use axijoint_fe_mode, only : mode_type, is_torsion
    implicit none
    private
-   public :: conditions_type, new_conditions, hold, take_reactions
+   public :: conditions_type, new_conditions, hold, take_reactions, held_part
 
    !> Conditions, by the places of the nodes
    type :: conditions_type
@@ -112,5 +112,20 @@ contains
          end associate
       end do
    end subroutine take_reactions
+
+   !> What `take_reactions` takes from the forces on a node
+   pure function held_part(conditions, place, force) result(held)
+      !> The conditions
+      type(conditions_type), intent(in) :: conditions
+      !> Place of the node
+      integer, intent(in) :: place
+      !> Forces on it
+      real(wp), intent(in) :: force(3)
+      !> Those of them that hold it
+      real(wp) :: held(3)
+
+      held = merge(0.0_wp, force, conditions%free(:, place))
+      if (conditions%tied(place)) held(1) = force(3)
+   end function held_part
 
 end module axijoint_analysis_fine_conditions
