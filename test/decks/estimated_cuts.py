@@ -154,6 +154,8 @@ def tube(program, folder):
     shared = cuts(1, upper=2)
     faults += expected('common nodes', [None]*11, [cut['moment_error'] for cut in shared['cut_errors']])
     faults += expected('common nodes: the budget', None, shared['errors']['discretization']['cuts'])
+    both = cuts(1, 'CUTS\n21,1.3,,0.5,2\n', upper=2)['cut_errors']
+    faults += expected('common nodes: a cut of all bodies', [True, True], [cut['moment_error'] is not None for cut in both[:2]])
     return faults
 
 

@@ -120,7 +120,7 @@ contains
       real(wp), allocatable :: stress(:, :, :), force(:, :, :)
       integer, allocatable :: places(:)
       type(fine_load_type) :: fine
-      logical :: cut(n_nodes(model%mesh)), nested
+      logical :: cut(n_nodes(model%mesh)), shares, nested
       logical, allocatable :: held(:)
       integer :: c, m
 
@@ -145,14 +145,12 @@ contains
          associate (body => model%cuts(c)%body)
             if (body /= model%cuts(max(1, c - 1))%body .or. c == 1) then
                cut = of_body(model%mesh, body)
-               if (body > 0 .and. shares_nodes(model%mesh, cut, body)) then
-                  deallocate (error%on_cuts)
-                  return
-               end if
+               shares = body > 0
+               if (shares) shares = shares_nodes(model%mesh, cut, body)
             end if
          end associate
          error%on_cuts(:, c) = error%on_cuts(:, c) + acting_beyond(c)
-         error%known_on_cuts(c) = .not. (cuts_support(model%mesh, structure%cuts(c), held) &
+         error%known_on_cuts(c) = .not. (shares .or. cuts_support(model%mesh, structure%cuts(c), held) &
             .or. cuts_stiff_springs(model, structure%cuts(c)))
       end do
 
