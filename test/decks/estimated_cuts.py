@@ -104,6 +104,11 @@ def pile(program, folder):
         shares = [coarse['errors'][source]['cuts'] for source in ('discretization', 'harmonics', 'planes', 'iteration', 'solver')]
         faults += close(f'{name}: sum', sum(shares), coarse['errors']['sum']['cuts'], 1e-9*sum(shares))
         faults += expected(f'{name}: in words', True, 'resultants on CUTS ' in coarse['errors']['in_words'])
+        on_springs = PILE.replace('FIXEDFACES\n6,111', 'SPRINGS\n6,1E4,5E3,5E3').format(
+            control=control, law=law, n=3, n2=6, angle=0, more='CUTS\n101,0.1,,1.9,9\n')
+        for cut in solved(program, folder, 'pile', on_springs)[0]['cut_errors'][-9:]:  # of all bodies: loads alone act above
+            faults += [f'{name}: {kind} of all bodies, told {cut[f"{kind}_error"]:.2e} at z = {cut["z"]}' for kind in KINDS
+                       if not cut[f'{kind}_error'] < (1e-9 if name == 'elastic' else 1e-6)]
         if name == 'slips':
             continue
         # another mode carries a load at 90 degrees, and the torque: lengths are the same at any angle

@@ -15,11 +15,12 @@ module axijoint_analysis_error_cut_errors
    use axijoint_assembly_loading, only : loading_type
    use axijoint_assembly_solid_force, only : initial_state_type, solid_force
    use axijoint_base_kinds, only : wp
+   use axijoint_element_joint, only : lower_node, upper_node
    use axijoint_fe_element_kind, only : formulation_bbar, is_reduced
-   use axijoint_fe_mode, only : is_torsion
+   use axijoint_fe_mode, only : mode_type, is_torsion
    use axijoint_joints_joint_errors, only : joint_change_type
    use axijoint_model_material, only : elasticity
-   use axijoint_model_mesh, only : mesh_type, n_elements, n_nodes
+   use axijoint_model_mesh, only : mesh_type, n_elements, n_joints, n_nodes
    use axijoint_model_model, only : model_type, held_components
    implicit none
    private
@@ -117,7 +118,7 @@ contains
       !> The errors while it is held; takes those of the resultants
       type(mesh_error_type), intent(inout) :: error
 
-      real(wp), allocatable :: stress(:, :, :), force(:, :, :)
+      real(wp), allocatable :: stress(:, :, :), force(:, :, :), acting(:, :, :)
       integer, allocatable :: places(:)
       type(fine_load_type) :: fine
       logical :: cut(n_nodes(model%mesh)), shares, nested
@@ -147,6 +148,8 @@ contains
                cut = of_body(model%mesh, body)
                shares = body > 0
                if (shares) shares = shares_nodes(model%mesh, cut, body)
+               acting = force
+               if (body == 0) call join_sides(model%mesh, acting)
             end if
          end associate
          error%on_cuts(:, c) = error%on_cuts(:, c) + acting_beyond(c)
@@ -176,16 +179,57 @@ contains
          whole = 0.0_wp
          amount = 0.0_wp
          do k = 1, size(places)
-            associate (mode => structure%modes(places(k)), acting => force(:, nodes, k))
-               resultants = resultants + resultants_above(structure%cuts(c), mode, position, acting)
-               whole = whole + rigid_resultants(position, mode, acting)
-               amount = amount + [sum(norm2(acting, 1), mask=above), sum(norm2(acting, 1), mask=.not. above)]
+            associate (mode => structure%modes(places(k)), on_nodes => acting(:, nodes, k))
+               resultants = resultants + resultants_above(structure%cuts(c), mode, position, on_nodes)
+               whole = whole + rigid_resultants(position, mode, on_nodes)
+               associate (size_of => pushing(mode, position(1, :), on_nodes))
+                  amount = amount + [sum(size_of, mask=above), sum(size_of, mask=.not. above)]
+               end associate
             end associate
          end do
          if (amount(2) < amount(1)) resultants = resultants - whole
       end function acting_beyond
 
    end subroutine find_held_on_cuts
+
+   !> Sizes of forces as far as they have resultants: those round a circle that balance each other, as where the axis holds it, have none
+   pure function pushing(mode, r, force) result(sizes)
+      !> The mode, of harmonic 0 or 1
+      type(mode_type), intent(in) :: mode
+      !> Radius of each node
+      real(wp), intent(in) :: r(:)
+      !> Forces on nodes, shape (3, nodes)
+      real(wp), intent(in) :: force(:, :)
+      !> Shape (nodes)
+      real(wp) :: sizes(size(force, 2))
+
+      if (mode%harmonic > 0) then
+         sizes = hypot(merge(force(2, :), 0.0_wp, r > 0.0_wp), force(1, :) - force(3, :))
+      else
+         sizes = hypot(force(2, :), force(3, :))
+      end if
+   end function pushing
+
+   !> Put forces on both sides of joints together where all bodies are cut: there joints act on nothing beyond the cut, and what they
+   !> put on nodes is not to say on which side of it less acts
+   pure subroutine join_sides(mesh, force)
+      !> The mesh
+      type(mesh_type), intent(in) :: mesh
+      !> Forces on nodes, shape (3, nodes, any)
+      real(wp), intent(inout) :: force(:, :, :)
+
+      integer :: i, j
+
+      do j = 1, n_joints(mesh)
+         do i = 1, mesh%joint_size(j)/2
+            associate (one => mesh%joint_nodes(lower_node(i), j), other => mesh%joint_nodes(upper_node(i), j))
+               if (one == other) cycle
+               force(:, one, :) = force(:, one, :) + force(:, other, :)
+               force(:, other, :) = 0.0_wp
+            end associate
+         end do
+      end do
+   end subroutine join_sides
 
    !> Whether halves of elements together do the work that they do whole, where they move alike
    pure logical function are_nested(model)
