@@ -159,8 +159,9 @@ def interfaces_listed(program, folder):
     for angle in (0, 90):
         ran = program.run('run', write(folder, 'pile.dat', INTERFACES.format(angle=angle)), '-o', folder)
         text = read_text(os.path.join(folder, 'pile.lis'))
-        lines = text[text.index('RESULTANTS OF INTERFACES'):].split('\n')[3:5]
-        rows = {line.split()[0]: [float(word) for word in line.split()[1:]] for line in lines}
+        lines = text[text.index('RESULTANTS OF INTERFACES'):].split('\n')
+        rows = {one.split()[0]: [float(word) for word in one.split()[1:] + other.split()[1:]] for one, other in zip(
+            lines[3:5], lines[6:8], strict=True)}
         total = [sum(column) for column in zip(*(row[:6] for row in rows.values()), strict=True)]
         along = [0.4, 0] if angle == 0 else [0, 0.4]
         # the load is 1 downwards, 0.4 sideways at z = 0.5; a moment lifts the side that it is named after

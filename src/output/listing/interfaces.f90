@@ -30,27 +30,38 @@ contains
       type(results_type), intent(in) :: results
 
       type(model_joint_point_type), allocatable :: points(:)
-      integer :: k
 
       if (size(model%mesh%joint_label) == 0) return
       points = new_joint_points(model)
       call write_result_heading(file, "RESULTANTS OF INTERFACES (of the body at side 4-3 of joints on that at side 1-2; "// &
-         "moments about the origin; shares of the area)", results%converged)
+         "moments about the origin)", results%converged)
       call file%put("  interface               axial force     force at 0    force at 90    moment at 0   moment at 90"// &
-         "         torque           area   stick    slip    open")
-      do k = 1, size(model%interfaces)
-         call write_line(interface_name(model%interfaces, k), model%mesh%joint_interface == k)
-      end do
-      call write_line("joints of JOINTS", model%mesh%joint_interface == 0)
+         "         torque")
+      call write_lines(.true.)
+      call file%put("  interface                      area   stick    slip    open  (shares of the area)")
+      call write_lines(.false.)
 
    contains
 
+      !> A line of each
+      subroutine write_lines(forces)
+         !> What they tell: forces or areas
+         logical, intent(in) :: forces
+
+         integer :: k
+
+         do k = 1, size(model%interfaces)
+            call write_line(interface_name(model%interfaces, k), model%mesh%joint_interface == k, forces)
+         end do
+         call write_line("joints of JOINTS", model%mesh%joint_interface == 0, forces)
+      end subroutine write_lines
+
       !> A line of some joints; none if there are none
-      subroutine write_line(name, chosen)
+      subroutine write_line(name, chosen, forces)
          !> Their name
          character(len=*), intent(in) :: name
-         !> Whether a joint is one of them
-         logical, intent(in) :: chosen(:)
+         !> Whether a joint is one of them, and what the line tells: forces or areas
+         logical, intent(in) :: chosen(:), forces
 
          character(len=name_length) :: label
          character(len=24) :: shares
@@ -58,9 +69,13 @@ contains
 
          if (.not. any(chosen)) return
          label = name
+         if (forces) then
+            call file%put("  "//label//columns(sum_of(model, results, chosen), wide))
+            return
+         end if
          area = areas_of(points, chosen, results)
          write (shares, "(3f8.3)") area([state_stick, state_slip, state_open])/sum(area)
-         call file%put("  "//label//columns([sum_of(model, results, chosen), sum(area)], wide)//shares)
+         call file%put("  "//label//columns([sum(area)], wide)//shares)
       end subroutine write_line
 
    end subroutine write_interface_resultants
