@@ -364,7 +364,10 @@ class Reports(unittest.TestCase):
         with contextlib.redirect_stdout(io.StringIO()) as said:
             self.assertEqual(command.main([f"{path}.h5", "--no-figures", "--no-view"]), 0)
             self.assertEqual(command.main([str(path), "--no-figures", "--no-view", "-o", f"{path}_2.html"]), 0)
-        self.assertEqual(said.getvalue(), f"{path}.html\n{path}_2.html\n")
+            folder = pathlib.Path(self.folder)/"pages"
+            folder.mkdir()
+            self.assertEqual(command.main([f"{path}.h5", "--no-figures", "--no-view", "-o", str(folder)]), 0)
+        self.assertEqual(said.getvalue(), f"{path}.html\n{path}_2.html\n{folder/'first.html'}\n")
         self.assertEqual(*(pathlib.Path(f"{path}{end}.html").read_bytes() for end in ("", "_2")))
         for words, cause in (([f"{path}.dat"], "scripts/run"), ([f"{path}3"], "there is no"),
                              ([str(path)]*2, "-o FILE"), ([f"{path}.lis.h5"], "there is no file")):

@@ -1,5 +1,6 @@
 !> Static analysis of a structure under its loads, told in order
 module axijoint_analysis_static
+   use axijoint_analysis_core_cuts, only : n_with_resultants
    use axijoint_analysis_core_in_situ_balance, only : in_situ_balance
    use axijoint_analysis_core_fields_beside, only : run_and_find
    use axijoint_analysis_core_increment_fields, only : field_of_state, recover_fields, &
@@ -340,7 +341,7 @@ contains
       call timer%push(phase_joints)
       if (estimates) then
          call new_difference(size(results%displacement, 2), size(structure%joint_points), &
-            size(structure%modes), size(structure%cuts) > 0, difference)
+            size(structure%modes), n_with_resultants(structure), difference)
          call solve_displacements(structure, model, history%loading, results%displacement, &
             results%solves, error, difference=difference)
          call new_mesh_error(difference, mesh_error)

@@ -15,7 +15,7 @@ def main(arguments=None):
     options = parsed(arguments)
     try:
         jobs = [job for word in options.words for job in jobs_of(word)]
-        path = options.o or default_path(options.words, jobs)
+        path = path_of(options)
         text = page(jobs, figures=not options.no_figures, views=not options.no_view)
         write(text, path)
     except Failure as failure:
@@ -41,18 +41,22 @@ def parsed(arguments):
                                      "summary, messages, figures, tables, deck.")
     parser.add_argument("words", nargs="+", metavar="NAME|RESULT.h5", help="name of results with their directory "
                         "(all combinations), or result files")
-    parser.add_argument("-o", metavar="FILE", type=pathlib.Path, help="the page (default: NAME.html beside the results)")
+    parser.add_argument("-o", metavar="FILE", type=pathlib.Path, help="the page (default: NAME.html beside the results); "
+                        "of a folder that is there: NAME.html in it")
     parser.add_argument("--no-figures", action="store_true", help="tables only; matplotlib is not needed")
     parser.add_argument("--no-view", action="store_true", help="no view in three dimensions, no JavaScript; plotly is not needed")
     parser.add_argument("--check", action="store_true", help="open the page in headless Chromium")
     return parser.parse_args(arguments)
 
 
-def default_path(words, jobs):
-    """NAME.html beside the results."""
+def path_of(options):
+    """Where the page goes: the file of -o, NAME.html in the folder of -o, or beside the results."""
+    words = options.words
+    if options.o and not options.o.is_dir():
+        return options.o
     if len(words) > 1:
         raise Failure("several names; say with -o FILE where the page goes")
-    path = pathlib.Path(words[0])
+    path = options.o/pathlib.Path(words[0]).name if options.o else pathlib.Path(words[0])
     if path.suffix in (".h5", ".json", ".lis"):
         path = path.with_suffix("")
     return path.with_name(f"{path.name}.html")

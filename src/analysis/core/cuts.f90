@@ -13,7 +13,7 @@ module axijoint_analysis_core_cuts
    use axijoint_model_model, only : model_type
    implicit none
    private
-   public :: cut_resultants, with_resultants, resultants_of_stress, displaced_excess
+   public :: cut_resultants, n_with_resultants, with_resultants, resultants_of_stress, displaced_excess
 
 contains
 
@@ -61,6 +61,15 @@ contains
          end do
       end do
    end subroutine cut_resultants
+
+   !> How many modes have resultants on cuts; they come before all others. None without cuts
+   pure integer function n_with_resultants(structure) result(n)
+      !> The structure
+      type(structure_type), intent(in) :: structure
+
+      n = 0
+      if (size(structure%cuts) > 0) n = size(with_resultants(structure%modes))
+   end function n_with_resultants
 
    !> Places of the modes whose stresses have resultants
    pure function with_resultants(modes) result(places)

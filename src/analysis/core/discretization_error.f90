@@ -28,6 +28,8 @@ module axijoint_analysis_core_discretization_error
       !> Error of the axial force, lateral force, moment and torque on each cut, shape (4, cuts) [force, force length]; negative if
       !> not known
       real(wp), allocatable :: on_cuts(:, :)
+      !> Least force that their errors are measured by: a small part of what joints that yield carried at most [force]
+      real(wp) :: least_force = 0.0_wp
       !> Largest error of a joint stress over the largest joint stress; negative without joints
       real(wp) :: joint_stress = -1.0_wp
       !> Largest joint stress of each mode, shape (modes), and what errors of joint stress are measured by, where it is

@@ -66,7 +66,7 @@ contains
          call compare_points(results%point_size, results%discretization%largest_displacement, budget(i))
          associate (x => model%mesh%coordinates)
             budget(i)%cuts = relative_on_cuts(budget(i)%on_cuts, sizes, &
-               max(maxval(x(1, :)), maxval(x(2, :)) - minval(x(2, :))))
+               max(maxval(x(1, :)), maxval(x(2, :)) - minval(x(2, :))), results%discretization%least_force)
          end associate
       end do
       if (results%at_rest) budget%displacement = min(0.0_wp, budget%displacement)  ! nothing is left to be off

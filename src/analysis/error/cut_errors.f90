@@ -54,11 +54,11 @@ contains
    end function sizes_on_cuts
 
    !> Largest error of any kind over the largest resultant of the kind, of the cuts of which it is known; negative if of none
-   pure real(wp) function relative_on_cuts(errors, sizes, extent) result(relative)
+   pure real(wp) function relative_on_cuts(errors, sizes, extent, least_force) result(relative)
       !> Errors and resultants, shape (n_kinds, cuts); errors negative if not known
       real(wp), intent(in) :: errors(:, :), sizes(:, :)
-      !> Extent of the bodies [length]
-      real(wp), intent(in) :: extent
+      !> Extent of the bodies [length], and the least force that errors are measured by [force]
+      real(wp), intent(in) :: extent, least_force
 
       real(wp), dimension(n_kinds) :: arm, least
 
@@ -67,7 +67,7 @@ contains
       if (all(errors(1, :) < 0.0_wp)) return
       arm = 1.0_wp
       arm([kind_moment, kind_torque]) = extent
-      least = slight*maxval(maxval(sizes, 2)/arm)*arm
+      least = max(least_force, slight*maxval(maxval(sizes, 2)/arm))*arm
       if (maxval(least) > 0.0_wp) then
          relative = maxval(maxval(errors, 2)/max(least, maxval(sizes, 2)))
       else if (.not. any(errors > 0.0_wp)) then
@@ -125,7 +125,7 @@ contains
       logical, allocatable :: held(:)
       integer :: c, m
 
-      if (.not. allocated(error%acting)) return
+      if (size(structure%cuts) == 0 .or. .not. allocated(error%acting)) return
       places = with_resultants(structure%modes)
       nested = are_nested(model)
       if (.not. nested) fine = new_fine_load(structure%fine, structure%modes, loading)

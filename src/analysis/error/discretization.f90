@@ -13,7 +13,7 @@ module axijoint_analysis_error_discretization
    use axijoint_analysis_fine_mesh_error, only : mesh_error_type, away_from_infinite, error_over_difference
    use axijoint_assembly_loading, only : loading_type
    use axijoint_assembly_support, only : support_point_type, add_support_force
-   use axijoint_base_kinds, only : wp
+   use axijoint_base_kinds, only : wp, pi
    use axijoint_fe_mode, only : mode_type, mode_integral
    use axijoint_joints_field, only : joint_field_type, stress_amplitude
    use axijoint_joints_floating, only : add_motions
@@ -22,6 +22,10 @@ module axijoint_analysis_error_discretization
    implicit none
    private
    public :: estimate_discretization
+
+   !> Part of the largest stress that joints that yield had in any increment, all over their area: forces below it are rests of
+   !> larger ones, and known no better than those
+   real(wp), parameter :: little = 1.0e-4_wp
 
 contains
 
@@ -177,6 +181,7 @@ contains
             estimate%joint_amplitude(k) = max(0.0_wp, maxval(maxval(abs(stress(:, :, k)), 1), mask=structure%judged))
          end do
          if (size(structure%yielding) > 0) then
+            estimate%least_force = little*yielding_stress*2.0_wp*pi*sum(points(structure%yielding)%weight)
             estimate%joint_scale = max(yielding_stress, &
                maxval(maxval(maxval(abs(results%joint_stress), 3), 1), mask=structure%judged))
          else

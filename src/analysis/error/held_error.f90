@@ -1,6 +1,7 @@
 !> What the mesh leaves of the error of a job whose joints yield while the stress of these is held
 module axijoint_analysis_error_held_error
    use omp_lib, only : omp_get_wtime
+   use axijoint_analysis_core_cuts, only : n_with_resultants
    use axijoint_analysis_core_structure, only : structure_type
    use axijoint_analysis_fine_conditions, only : held_part
    use axijoint_analysis_fine_difference, only : difference_type, room_type, most_steps, new_difference, find_difference, &
@@ -173,9 +174,8 @@ contains
 
       if (.not. allocated(error%acting)) return
       allocate (shared(3, size(error%acting, 2)))
-      do k = 1, size(fine, 3)
+      do k = 1, size(error%acting, 3)
          associate (m => structure%modes(k)%harmonic, equations => structure%equations)
-            if (m > 1) cycle
             by_node = joint_force(points, m, fine(:, :, k), size(structure%fine%stiffness%place))
             force = by_node
             force(:, structure%fine%stiffness%place) = by_node
@@ -234,7 +234,7 @@ contains
       do i = 1, size(under_way%held)
          associate (held => under_way%held(i), state => under_way%states(i))
             call new_difference(size(state%displacement, 2), size(structure%joint_points), size(structure%modes), &
-               size(structure%cuts) > 0, held%difference)
+               n_with_resultants(structure), held%difference)
             held%load = new_fine_load(structure%fine, structure%modes, state%loading)
             held%steps = steps_of(state%loading, held%excess)
          end associate

@@ -41,8 +41,8 @@ module axijoint_analysis_fine_difference
       real(wp), allocatable :: jump(:, :, :)
       !> Energy of the whole of it, shape (modes)
       real(wp), allocatable :: energy(:)
-      !> Forces of what holds it, supports and springs, shared by the nodes of the coarse mesh, shape (3, nodes, modes); of
-      !> harmonics 0 and 1 alone, which have resultants. Not allocated if nobody asks
+      !> Forces of what holds it, supports and springs, shared by the nodes of the coarse mesh, of as many of the first modes as
+      !> are asked for, shape (3, nodes, these)
       real(wp), allocatable :: holding(:, :, :)
       !> Whether what was found is made of numbers, shape (modes)
       logical, allocatable :: known(:)
@@ -67,17 +67,17 @@ module axijoint_analysis_fine_difference
 contains
 
    !> No difference
-   subroutine new_difference(n_nodes, n_points, n_modes, reacts, difference)
+   subroutine new_difference(n_nodes, n_points, n_modes, n_holding, difference)
       !> Nodes, joint points, modes
       integer, intent(in) :: n_nodes, n_points, n_modes
-      !> Whether forces of what holds it are asked for
-      logical, intent(in) :: reacts
+      !> Of how many of the first modes forces of what holds it are asked for
+      integer, intent(in) :: n_holding
       !> The difference
       type(difference_type), intent(out) :: difference
 
       allocate (difference%displacement(3, n_nodes, n_modes), source=0.0_wp)
       allocate (difference%jump(3, n_points, n_modes), source=0.0_wp)
-      if (reacts) allocate (difference%holding(3, n_nodes, n_modes), source=0.0_wp)
+      allocate (difference%holding(3, n_nodes, n_holding), source=0.0_wp)
       allocate (difference%energy(n_modes), source=0.0_wp)
       allocate (difference%known(n_modes), source=.true.)
    end subroutine new_difference
@@ -92,8 +92,9 @@ contains
       associate (displacement => difference%displacement, jump => difference%jump)
          call equations%team%gather(displacement, size(displacement, kind=i8), equations%last_mode)
          call equations%team%gather(jump, size(jump, kind=i8), equations%last_mode)
-         if (allocated(difference%holding)) call equations%team%gather(difference%holding, &
-            size(difference%holding, kind=i8), equations%last_mode)
+         associate (holding => difference%holding)
+            call equations%team%gather(holding, size(holding, kind=i8), min(equations%last_mode, size(holding, 3)))
+         end associate
          call equations%team%gather(difference%energy, size(difference%energy, kind=i8), equations%last_mode)
       end associate
       difference%known = equations%team%all_of(all(difference%known))
@@ -241,8 +242,8 @@ contains
                call see_change(level, of_blocks, room%u, size(difference%displacement, 2), room%external, jump)
                if (step > steps .or. is_small(room%external, jump, difference, k)) then
                   call add_change(room%external, jump, 0.5_wp*of_blocks*work(room%u, force), k, difference)
-                  if (allocated(difference%holding) .and. equations%modes(k)%harmonic <= 1) call add_springs(level, &
-                     equations%modes(k)%harmonic, of_blocks, room%u, difference%holding(:, :, k))
+                  if (k <= size(difference%holding, 3)) call add_springs(level, equations%modes(k)%harmonic, of_blocks, room%u, &
+                     difference%holding(:, :, k))
                   exit
                end if
             end if
@@ -361,7 +362,7 @@ contains
       call daxpy(size(room%force), -length, room%pull(:, :, i), 1, room%force, 1)
       associate (conditions => level%conditions(equations%systems(equations%system(k))%class))
          call take_reactions(conditions, room%force)
-         if (.not. allocated(difference%holding) .or. equations%modes(k)%harmonic > 1) return
+         if (k > size(difference%holding, 3)) return
          call add_reactions(level, conditions, length, room%pull(:, :, i), difference%holding(:, :, k))
          call add_springs(level, equations%modes(k)%harmonic, length, room%way(:, :, i), difference%holding(:, :, k))
       end associate

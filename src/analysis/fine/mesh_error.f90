@@ -26,7 +26,7 @@ module axijoint_analysis_fine_mesh_error
       !> Of the jumps at all joint points, their stress fixed, amplitudes, shape (3, points, modes)
       real(wp), allocatable :: jump(:, :, :)
       !> Forces on nodes besides those of jumps: of supports and springs, and of the excess stress of joints, which finer ones
-      !> integrate otherwise. Shape (3, nodes, modes); not allocated if nobody asks
+      !> integrate otherwise. Of as many of the first modes as are asked for, shape (3, nodes, these); not allocated if not known
       real(wp), allocatable :: acting(:, :, :)
       !> Of the resultants on cuts, shape (n_resultants, cuts); not allocated if not known
       real(wp), allocatable :: on_cuts(:, :)
@@ -53,14 +53,14 @@ contains
 
       error%displacement = error_over_difference*difference%displacement
       error%jump = error_over_difference*difference%jump
-      if (allocated(difference%holding)) error%acting = error_over_difference*difference%holding
+      error%acting = error_over_difference*difference%holding
       error%energy = error_over_difference*difference%energy  ! falls as displacements do at corners
       error%seconds = difference%seconds
       error%known = all(difference%known)
       if (error%known) return
       error%displacement = 0.0_wp
       error%jump = 0.0_wp
-      if (allocated(error%acting)) deallocate (error%acting)
+      deallocate (error%acting)
       error%energy = 0.0_wp
    end subroutine new_mesh_error
 
