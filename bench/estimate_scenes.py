@@ -63,6 +63,12 @@ class Scene:
         """Cuts through a body"""
         return self.add("CUTS", f"1, {first}, {body}, {last}, {n}")
 
+    def sections(self, *lines):
+        """Lines along which stresses are looked at, from r, z to r, z, at angles all round"""
+        self.add("SECTIONS", *(f"{k}, {', '.join(f'{x:.10g}' for x in line)}, 13" for k, line in enumerate(lines, 1)))
+        angles = [f"{5*k}" for k in range(72)]
+        return self.add("OUTPUT", *(", ".join(angles[k:k + 8]) for k in range(0, 72, 8)))
+
     def law(self, number, k, cohesion=None, friction=None, details=None):
         """A law with k along xi and theta, 2 k along eta; elastic without cohesion"""
         if cohesion is None:
@@ -88,6 +94,7 @@ def pile(setting, *, k=1e4, cohesion=None, friction=None, details=RESULTANT, you
     scene.add("FACES", "1, 1, 0, -.5, .5, -.5", "2, 1, .5, 0, .5, 1", "3, 2, .5, 0, .5, 1", "4, 1, 0, 1, .5, 1",
               "5, 2, 0, 1, .5, 1", "6, 2, 0, 2, 2, 2")
     scene.add("INTERFACES", "1, 2, 3", f"{1 if head else 2}, 4, 5")
+    scene.sections((.25, -.45, .25, .95), (0, .45, 2, .45))
     if springs:
         scene.add("SPRINGS", "6, 2e4, 1e4, 1e4")
     else:
@@ -102,6 +109,7 @@ def notch(setting, m=1, ratio=1.0):
     scene.block(1, 1, 4, 4, (.5, -1, 1, 0), (2, 2)).block(1, 1, 4, 4, (.5, 0, 1, 1), (2, 1))
     scene.block(1, 1 if ratio == 1.0 else 2, 6, 4, (1, 0, 2, 1), (1, 1))
     scene.add("FACES", "1, 1, .5, -1, 1, -1", "2, 1, .5, 1, 2, 1", "3, 1, 2, 0, 2, 1").add("FIXEDFACES", "1, 111")
+    scene.sections((.5, -.55, 1, -.55), (.5, .55, 2, .55))
     return scene.add("PRESSURES", f"3, {m}, 1, 1", f"2, {m}, .5, .5").text()
 
 
@@ -109,6 +117,7 @@ def built_in(setting, poisson=0.3):
     """A thick tube built in at its foot, pushed sideways at its top: corners of a support"""
     scene = Scene("Built in", setting).add("HARMONICS", "1").add("MATERIALS", f"1, 2e4, {poisson:g}")
     scene.block(1, 1, 4, 8, (.5, 0, 1, 2), (2, 1)).add("FACES", "1, 1, .5, 0, 1, 0", "2, 1, .5, 2, 1, 2")
+    scene.sections((.5, 1.05, 1, 1.05), (.6, .3, .6, 2))
     return scene.add("FIXEDFACES", "1, 111").add("RESULTANTS", "2, LATERAL, 1").text()
 
 
@@ -117,6 +126,7 @@ def held_twice(setting, springs=False):
     scene = Scene("Held twice", setting).add("HARMONICS", "0, 1").add("MATERIALS", "1, 2e4, 0.3")
     scene.block(1, 1, 2, 4, (.5, 0, 1, 1), (2, 1)).block(1, 1, 2, 4, (.5, 1, 1, 2), (2, 0)).block(1, 1, 2, 4, (.5, 2, 1, 3), (2, 1))
     scene.add("FACES", "1, 1, .5, 0, 1, 0", "2, 1, 1, 2, 1, 3", "3, 1, 1, 1, 1, 2", "4, 1, .5, 3, 1, 3").add("FIXEDFACES", "1, 111")
+    scene.sections((.5, 1.45, 1, 1.45), (.6, .3, .6, 1.7))
     scene.add("SPRINGS" if springs else "FIXEDFACES", "2, 1e3, 3e4, 1e3" if springs else "2, 101")
     return scene.cuts(1, 0, 3, 13).add("RESULTANTS", "3, LATERAL, 1", "4, AXIAL, -1", "4, TORQUE, 0.3").text()
 
@@ -126,6 +136,7 @@ def tube(setting, thickness=0.5, height=2.0, shape="TABLE, -45, 0, 0, 1, 45, 0")
     scene = Scene("Tube", setting).add("MATERIALS", "1, 2e5, 0.3")
     scene.block(1, 1, max(1, round(6*thickness)), 8, (1, 0, 1 + thickness, height))
     scene.add("FACES", f"1, 1, {1 + thickness}, 0, {1 + thickness}, {height}", f"2, 1, 1, 0, {1 + thickness}, 0").add("FIXEDFACES", "2, 111")
+    scene.sections((1, .45*height, 1 + thickness, .45*height), (1, .2*height, 1, height))
     return scene.add("SHAPES", f"1, {shape}").add("PRESSURES", "1, , 1, , , 1").text()
 
 
@@ -133,6 +144,7 @@ def chimney(setting, m=1, thickness=0.05):
     """A thin tube in elements far longer than what bends at its ends, pressed round its rim like cos m theta"""
     scene = Scene("Chimney", setting).add("HARMONICS", str(m)).add("MATERIALS", "1, 2e5, 0.3")
     scene.block(1, 1, 1, 6, (2 - thickness, 0, 2, 12), (0, 0)).add("FACES", f"1, 1, {2 - thickness}, 0, 2, 0", f"2, 1, {2 - thickness}, 12, 2, 12")
+    scene.sections((2, 2, 2, 11), (2 - thickness, 6.3, 2, 6.3))
     return scene.add("FIXEDFACES", "1, 111").add("TRACTIONS", f"2, {m}, 1, .2").text()
 
 
@@ -142,6 +154,7 @@ def rim(setting, m=0, thickness=0.001, across=1, along=32):
     inner, outer = 1 - thickness/2, 1 + thickness/2
     scene.block(1, 1, across, along, (inner, 0, outer, 1), (0, 1 if setting.grade > 1 else 0))
     scene.add("FACES", f"1, 1, {inner}, 0, {outer}, 0", f"2, 1, {inner}, 1, {outer}, 1")
+    scene.sections((outer, 0, outer, .8))
     return scene.add("FIXEDFACES", "2, 111" if m else "2, 010").add("TRACTIONS", f"1, {m}, {1/thickness:g}").text()
 
 
@@ -149,6 +162,7 @@ def plate(setting, m=2):
     """A thin disc, held at its rim and pressed by cos m theta: one or two elements bend"""
     scene = Scene("Plate", setting).add("HARMONICS", str(m)).add("MATERIALS", "1, 2e5, 0.3")
     scene.block(1, 1, 8, 1, (0, 0, 2, .2), (2, 0)).add("FACES", "1, 1, 2, 0, 2, .2", "2, 1, 0, .2, 2, .2")
+    scene.sections((.1, .2, 1.6, .2), (.9, 0, .9, .2))
     return scene.add("FIXEDFACES", "1, 111").add("PRESSURES", f"2, {m}, 1").text()
 
 
@@ -157,6 +171,7 @@ def ring(setting, m=6, outer=1.2, poisson=0.3):
     scene = Scene("Ring", setting).add("HARMONICS", str(m)).add("MATERIALS", f"1, 3e4, {poisson:g}")
     scene.block(1, 1, 6, 1, (1, 0, outer, (outer - 1)/6)).add("FACES", f"1, 1, {outer}, 0, {outer}, {(outer - 1)/6:.10g}",
                                                                f"2, 1, 1, 0, {outer}, 0", f"3, 1, 1, {(outer - 1)/6:.10g}, {outer}, {(outer - 1)/6:.10g}")
+    scene.sections((1, (outer - 1)/12, outer, (outer - 1)/12))
     return scene.add("FIXEDFACES", "2, 010", "3, 010").add("PRESSURES", f"1, {m}, 1").text()
 
 
@@ -172,6 +187,10 @@ def soft(setting, shape="pier", poisson=0.49):
         if shape == "layer":
             scene.block(1, 1, 6, 4, (1, 0, 3, .5), (1, 1))
         scene.block(1, 2, 6, 8, (1, -2, 3, 0), (1, 2)).add("FACES", "1, 1, 0, .5, 1, .5", "2, 1, 0, -2, 3, -2")
+    if shape != "ring":
+        scene.sections((0, -.9, 3, -.9), (0, .3, 1, .3))
+    else:
+        scene.sections((1, .55, 3, .55))
     return scene.add("FIXEDFACES", "2, 111").add("RESULTANTS", "1, AXIAL, -4", "1, LATERAL, 1").text()
 
 
@@ -182,6 +201,7 @@ def jacks(setting):
     scene.add("FACES", "1, 1, 2.2, 0, 2.2, .2", "2, 2, 2.2, 0, 2.2, .2", "3, 1, 2, 0, 2, .2", "4, 1, 2, 0, 2.2, 0",
               "5, 1, 2, .2, 2.2, .2", "6, 2, 2.2, 0, 20, 0", "7, 2, 2.2, .2, 20, .2", "8, 2, 20, 0, 20, .2")
     scene.add("INTERFACES", "1, 1, 2").add("FIXEDFACES", *(f"{face}, 010" for face in (4, 5, 6, 7)), "8, 111, 1, 9999")
+    scene.sections((2, .1, 4, .1))
     scene.add("SHAPES", "1, PATCH, -20, 20", "2, PATCH, 160, 200")
     return scene.add("PRESSURES", "8, 0, 1.5", "3, , 1, , , 1", "3, , 1, , , 2").text()
 
@@ -192,6 +212,7 @@ def lining(setting, k=1e3):
     scene.block(1, 1, 2, 1, (2.7, 0, 3, .5)).block(2, 2, 12, 1, (3, 0, 20, .5))
     scene.add("FACES", "1, 1, 3, 0, 3, .5", "2, 2, 3, 0, 3, .5", "3, 2, 20, 0, 20, .5", "4, 1, 2.7, 0, 3, 0", "5, 1, 2.7, .5, 3, .5",
               "6, 2, 3, 0, 20, 0", "7, 2, 3, .5, 20, .5").add("INTERFACES", "1, 1, 2")
+    scene.sections((2.7, .25, 6, .25))
     scene.add("FIXEDFACES", *(f"{face}, 010" for face in (4, 5, 6, 7)))
     return scene.add("TRACTIONS", "3, 0, -1.0, 0, 0", "3, 2, 0.6, 0, -0.6").text()
 
@@ -204,6 +225,7 @@ def raft(setting):
         scene.block(2, 2, n, 6, (first, -15, last, 0), (1 if first == 5 else 0, 2))
     scene.add("FACES", "1, 1, 0, 0, 5, 0", "2, 2, 0, 0, 5, 0", "3, 1, 0, .6, 5, .6", "4, 1, 3, .6, 4, .6", "5, 2, 0, -15, 20, -15",
               "6, 2, 20, -15, 20, 0").add("INTERFACES", "1, 1, 2").add("FIXEDFACES", "5, 111", "6, 101")
+    scene.sections((0, .3, 5, .3), (0, -2, 10, -2))
     return scene.add("SHAPES", "1, PATCH, -12, 12").add("PRESSURES", "3, 0, .1", "4, , 1, , , 1").text()
 
 
@@ -225,6 +247,7 @@ def skew(setting, m=2):
                     (.5, .5, .8, .7, 1, 1.2, .5, 1.1), (.8, .7, 1.5, .6, 1.4, 1.2, 1, 1.2)):
         scene.block(1, 1, 4, 4, corners)
     scene.add("FACES", "1, 1, .5, 0, .9, .1", "2, 1, 1.5, .6, 1.4, 1.2").add("FIXEDFACES", "1, 111")
+    scene.sections((.65, .3, 1.4, .4), (.6, .9, 1.3, .9))
     return scene.add("PRESSURES", f"2, {m}, 1, 1").text()
 
 
@@ -236,6 +259,7 @@ def cone(setting, share=0.8):
     scene.block(2, 1, 3, 8, (.3, 0, .9, 0, 1.2, .6, .6, .6), (1, 2))
     scene.add("FACES", "1, 1, .3, 0, .6, .6", "2, 1, 0, .6, .6, .6", "3, 2, .3, 0, .6, .6", "4, 2, .9, 0, 1.2, .6")
     scene.add("INTERFACES", "1, 1, 3").add("FIXEDFACES", "4, 111").cuts(1, 0.05, 0.55, 6)
+    scene.sections((0, .27, 1, .27))
     scene.add("CASE", "1, pressed").add("RESULTANTS", "2, AXIAL, -1").add("CASE", "2, twisted")
     scene.add("RESULTANTS", f"2, TORQUE, {0.3*share:g}").add("COMBINE", "1, 1, 1, 2, 1")
     return scene.text((1, 1), (1, 2))
@@ -249,6 +273,7 @@ def footing(setting, e=0.4):
     scene.add("FACES", "1, 1, 0, 0, 1, 0", "2, 1, 0, .4, 1, .4", "3, 2, 0, 0, 1, 0", "4, 2, 0, -3, 4, -3",
               "5, 2, 4, -3, 4, 0")
     scene.add("INTERFACES", "1, 3, 1").add("FIXEDFACES", "4, 111", "5, 111")
+    scene.sections((0, .2, 1, .2), (0, -1, 3, -1))
     return scene.add("RESULTANTS", "2, AXIAL, -1", f"2, MOMENT, {e:g}").text()
 
 
@@ -261,6 +286,7 @@ def soil_pile(setting, steps=((1, 1), (1, 2))):
     scene.add("FACES", "1, 1, 0, 0, .5, 0", "2, 1, .5, -4, .5, 0", "3, 2, .5, -4, .5, 0", "4, 1, 0, -4, .5, -4",
               "5, 2, 0, -4, .5, -4", "6, 2, 0, -6, 4, -6", "7, 2, 4, -6, 4, 0")
     scene.add("INTERFACES", "1, 2, 3", "2, 4, 5").add("FIXEDFACES", "6, 111", "7, 111").cuts(1, -3.9, 0, 14).add("CASE", "1, weight")
+    scene.sections((.25, -3.5, .25, -.2), (0, -1.9, 3, -1.9))
     scene.add("GRAVITY", "-1").add("INSITU", "1, 0, 0.02, 0.5", "2, 0, 0.02, 0.5").add("CASE", "2, lateral")
     scene.add("RESULTANTS", "1, LATERAL, 0.04").add("COMBINE", "1, 1, 1, 2, 1")
     return scene.text(*steps)
@@ -276,6 +302,7 @@ def pipe_pile(setting, steps=((1, 1), (1, 2))):
     scene.add("FACES", "1, 1, .95, 3, 1, 3", "2, 1, 1, -9, 1, 0", "3, 2, 1, -9, 1, 0", "4, 1, .95, -9, .95, 0", "5, 2, .95, -9, .95, 0",
               "6, 1, .95, -9, 1, -9", "7, 2, .95, -9, 1, -9", "8, 2, 0, -14, 8, -14", "9, 2, 8, -14, 8, 0")
     scene.add("INTERFACES", "1, 2, 3", "1, 4, 5", "1, 6, 7").add("FIXEDFACES", "8, 111", "9, 101").cuts(1, -8.9, 0, 14)
+    scene.sections((1, -8, 1, -1), (.95, .5, .95, 2.8))
     scene.add("CASE", "1, weight")
     scene.add("GRAVITY", "-1").add("INSITU", "2, 0, 0.01, 0.5", "1, 0, 0.01, 0.5, 0, 1, MEANT").add("CASE", "2, lateral")
     scene.add("RESULTANTS", "1, LATERAL, 0.2", "1, MOMENT, -1").add("COMBINE", "1, 1, 1, 2, 1")
@@ -291,6 +318,7 @@ def shrunk_on(setting, torque=0.5):
     scene.block(2, 1, 3, 8, (.5, 0, 1, 1), (1, 1))
     scene.add("FACES", "1, 1, 0, -1, .5, -1", "2, 1, .5, 0, .5, 1", "3, 2, .5, 0, .5, 1", "4, 2, 1, 0, 1, 1")
     scene.add("INTERFACES", "1, 2, 3").add("FIXEDFACES", "4, 111").cuts(1, 0, 0.875, 8)
+    scene.sections((.1, .45, 1, .45))
     return scene.add("RESULTANTS", f"1, TORQUE, {torque:g}").text()
 
 
@@ -303,6 +331,7 @@ def heated(setting):
     scene.add("FACES", "1, 1, .5, 0, .5, 1", "2, 2, .5, 0, .5, 1", "3, 1, 0, 0, .5, 0", "4, 2, 0, 0, .5, 0",
               "5, 2, 0, -.5, 2, -.5")
     scene.add("INTERFACES", "1, 1, 2", "2, 3, 4").add("FIXEDFACES", "5, 111")
+    scene.sections((0, .45, 2, .45))
     return scene.add("TEMPERATURES", "1, 0, 20, , ", "1, 1, 0, 60, ").text()
 
 
@@ -318,6 +347,7 @@ def peg(setting, mesh=None):
         scene.block(2, 1, 6, 8, (.5, 0, 2, 1), (1, 0))
         scene.add("FACES", "1, 1, 0, -.5, .5, -.5", "2, 2, .5, 1, 2, 1", "3, 1, .5, 0, .5, 1", "4, 2, .5, 0, .5, 1")
         scene.add("INTERFACES", "1, 3, 4")
+    scene.sections((0, .45, 2, .45))
     return scene.add("FIXEDFACES", "2, 111").add("RESULTANTS", "1, LATERAL, 0.4").text()
 
 

@@ -12,7 +12,7 @@ import numpy as np
 
 import estimate_scenes as scenes
 from estimate_scenes import BOND, Setting
-from found_errors import cut_error, displacement_error, joint_error, read
+from found_errors import cut_error, displacement_error, joint_error, read, section_error
 
 MESHES = os.path.join(os.path.dirname(os.path.realpath(__file__)), "meshes")
 BAND, SHARE, MOST = (0.5, 2.0), 0.9, 3.0
@@ -218,7 +218,7 @@ class Runs:
         return self.begun[deck].result()
 
     def ratios(self, row):
-        """True errors and estimates of displacement, joint stress and resultants on cuts; None where there is nothing to compare"""
+        """True errors and estimates of displacement, joint stress, resultants on cuts and stress on sections; None where there is nothing to compare"""
         paths = [self.result(deck) for deck in (row.deck(), row.reference())]
         if None in paths:
             return None
@@ -226,7 +226,7 @@ class Runs:
         estimate = own.summary["errors"][{"mesh": "discretization", "loads": "harmonics"}.get(row.source, row.source)]
         words = own.summary["errors"]["in_words"]
         found = (("displacement", displacement_error(own, better), "displacement"), ("joint stress", joint_error(own, better), "joint_stress"),
-                 ("resultants on CUTS", cut_error(own, better), "cuts"))
+                 ("resultants on CUTS", cut_error(own, better), "cuts"), ("stress on SECTIONS", section_error(own, better), "sections"))
         return [None if true is None else Pair(true, estimate[key], f"{name} at least" in words) for name, true, key in found]
 
 
@@ -286,11 +286,12 @@ def main():
     rows = [row for row in rows if args.only in f"{row.source}: {row.name}"]
     if args.quick:
         rows = rows[::6]
-    print(f"True error over its estimate, displacement (largest error over the largest), joint stress and resultants on cuts (the same)\n"
+    print(f"True error over its estimate, displacement (largest error over the largest), joint stress, resultants on cuts and stress on sections\n"
+          f"(the same)\n"
           f"Bars: of all figures {100*SHARE:g} % between {BAND[0]:g} and {BAND[1]:g}, none above {MOST:g} but those told as \"at least\"; of loads "
           f"on parts of the circle none above {MOST_BY_LOADS:g}\n{len(rows)} rows; * outside the band, ! above {MOST:g}\n")
     print(f"{'source':10} {'scene':46} {'disp. true':>10} {'estimate':>10} {'ratio':>8}    {'joint true':>10} "
-          f"{'estimate':>10} {'ratio':>8}    {'cuts true':>10} {'estimate':>10} {'ratio':>8}   [%]")
+          f"{'estimate':>10} {'ratio':>8}    {'cuts true':>10} {'estimate':>10} {'ratio':>8}    {'sect. true':>10} {'estimate':>10} {'ratio':>8}   [%]")
     found, failed = [], 0
     with tempfile.TemporaryDirectory() as folder, ThreadPoolExecutor(2) as pool:
         for mesh in os.listdir(MESHES):

@@ -138,6 +138,35 @@ def cut_error(coarse, fine):
     return (wrong[scale > 0]/scale[scale > 0]).max(initial=0.0)
 
 
+def section_error(coarse, fine):
+    """Largest error of a stress along a section over the largest along any, where it is judged; None without sections"""
+    if not coarse.has("errors/on_sections"):
+        return None
+    wrong, stress = 0.0, coarse.read("errors/section_stress")
+    told = coarse.read("errors/on_sections")[0] >= 0
+    if not told.any():
+        return None
+    nodes = coarse.mesh.element_nodes + 1
+    infinite = [place["node"] for place in coarse.summary["singular"]]
+    infinite = np.flatnonzero(np.isin(coarse.mesh.node_label, infinite)) + 1
+    for k, label in enumerate(coarse.summary["section_errors"]):
+        where = f"sections/{label['section']}/"
+        rows = [_rows(result, where) for result in (coarse, fine)]
+        own, better = (result.read(where + "stress") for result in (coarse, fine))
+        for row, key in enumerate(rows[0]):
+            element = coarse.read(where + "element")[row] - 1
+            if key not in rows[1] or not told[k] or np.isin(nodes[element], infinite).any():
+                continue
+            wrong = max(wrong, abs(own[:, row] - better[:, rows[1].index(key)]).max())
+    return wrong/stress.max()
+
+
+def _rows(result, where):
+    """Number of the point, body and material of each row of a section"""
+    element = result.read(where + "element") - 1
+    return list(zip(result.read(where + "point"), result.mesh.element_body[element], result.mesh.element_material[element], strict=True))
+
+
 def _sizes(resultants):
     """Axial force, lateral force and moment whatever their angle, torque: (cut, 4)"""
     n, q, m, t, q_90, m_90 = resultants.T

@@ -26,6 +26,7 @@ module axijoint_analysis_static
    use axijoint_analysis_error_stiffer_joints, only : compare_stiffer
    use axijoint_analysis_error_yielding_errors, only : estimate_yielding_errors
    use axijoint_analysis_error_cut_errors, only : find_held_on_cuts
+   use axijoint_analysis_error_line_errors, only : find_held_on_lines
    use axijoint_analysis_fine_difference, only : difference_type, new_difference
    use axijoint_analysis_fine_mesh_error, only : mesh_error_type, new_mesh_error
    use axijoint_assembly_loading, only : new_loading
@@ -166,6 +167,7 @@ contains
       if (estimates) then
          results%bends_unseen = structure%fine%bends_unseen
          results%edges_unseen = structure%fine%edges_unseen
+         results%stress_in_part = structure%fine%stress_in_part
       end if
       results%converged = results%converged .and. max(results%residual_ratio, results%mismatch) &
          <= results%tolerance
@@ -341,11 +343,12 @@ contains
       call timer%push(phase_joints)
       if (estimates) then
          call new_difference(size(results%displacement, 2), size(structure%joint_points), &
-            size(structure%modes), n_with_resultants(structure), difference)
+            size(structure%fine%near_lines), size(structure%modes), n_with_resultants(structure), difference)
          call solve_displacements(structure, model, history%loading, results%displacement, &
             results%solves, error, difference=difference)
          call new_mesh_error(difference, mesh_error)
          call find_held_on_cuts(model, structure, history%loading, results%displacement, mesh_error)
+         call find_held_on_lines(model, structure, history%loading, results%displacement, mesh_error)
          call timer%pop(phase_factor, difference%factor_share)
       else
          call solve_displacements(structure, model, history%loading, results%displacement, &

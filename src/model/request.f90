@@ -15,14 +15,16 @@ module axijoint_model_request
       print_orders, print_all
    public :: rows_all, rows_every, rows_upto, rows_none, rows_names
    public :: old_output, most_output
-   public :: goal_joints, goal_displacement, goal_energy, goal_points, goal_cuts, goal_names
+   public :: goal_joints, goal_displacement, goal_energy, goal_points, goal_cuts, goal_sections, &
+      goal_names
    public :: division_graded, division_uniform, division_names
 
    !> What the error of a job may be asked of: of joint stress, of displacements, of the
-   !> stresses in the energy norm, of displacements at points with names, of resultants on cuts
-   integer, parameter :: goal_joints = 1, goal_displacement = 2, goal_energy = 3, goal_points = 4, goal_cuts = 5
+   !> stresses in the energy norm, of displacements at points with names, of resultants on cuts, of stresses along lines
+   integer, parameter :: goal_joints = 1, goal_displacement = 2, goal_energy = 3, goal_points = 4, goal_cuts = 5, &
+      goal_sections = 6
    !> Their names on the card
-   character(len=6), parameter :: goal_names(5) = [character(len=6) :: 'JOINTS', 'DISPL', 'ENERGY', 'POINTS', 'CUTS']
+   character(len=8), parameter :: goal_names(6) = [character(len=8) :: 'JOINTS', 'DISPL', 'ENERGY', 'POINTS', 'CUTS', 'SECTIONS']
    !> How BLOCKS are refined: elements where the error is; all alike
    integer, parameter :: division_graded = 1, division_uniform = 2
    !> Their words in a deck

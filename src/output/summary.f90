@@ -99,6 +99,7 @@ contains
          call put_pair(file, "errors", errors_text(results))
          call put_pair(file, "point_errors", point_errors_json(model, results))
          call put_cut_errors(file, model, results)
+         call put_pair(file, "section_errors", section_errors_json(model, results))
          call put_pair(file, "singular", singular_json(model, results))
          call put_pair(file, "error_seconds", error_seconds_text(results))
          call put_pair(file, "increment_seconds", json_number(results%increment_seconds))
@@ -235,7 +236,7 @@ contains
          json = '"'//trim(source_names(share%source))//'": {"energy": '//known_number(share%energy)// &
                 ', "displacement": '//known_number(share%displacement)//', "joint_stress": '// &
                 known_number(share%joint_stress)//', "points": '//known_number(share%points)// &
-                ', "cuts": '//known_number(share%cuts)//', "load": '// &
+                ', "cuts": '//known_number(share%cuts)//', "sections": '//known_number(share%sections)//', "load": '// &
                 known_number(share%load)//'}, '
       end function share_text
 
@@ -268,6 +269,37 @@ contains
       end do
       json = json//"]"
    end function point_errors_json
+
+   !> What is estimated of the stresses along each line
+   pure function section_errors_json(model, results) result(json)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Results
+      type(results_type), intent(in) :: results
+      !> A JSON array
+      character(len=:), allocatable :: json
+
+      type(error_share_type) :: total
+      integer :: i, k
+
+      json = "[]"
+      if (.not. allocated(results%budget) .or. size(model%lines) == 0) return
+      total = sum_of_shares(results%budget)
+      json = "["
+      do k = 1, size(model%lines)
+         if (k > 1) json = json//", "
+         associate (found => results%discretization)
+            json = json//'{"section": '//json_number(model%lines(k)%label)//', "points": '//json_number(found%line_points(2, k))// &
+               ', "judged": '//json_number(found%line_points(1, k))//', "stress": '//known_number(found%line_stress(k))// &
+               ', "error": '//known_number(total%on_lines(k))
+         end associate
+         do i = 1, size(results%budget)
+            json = json//', "'//trim(source_names(results%budget(i)%source))//'": '//known_number(results%budget(i)%on_lines(k))
+         end do
+         json = json//"}"
+      end do
+      json = json//"]"
+   end function section_errors_json
 
    !> What is estimated of the resultants on each cut, a line a cut: there may be many
    subroutine put_cut_errors(file, model, results)

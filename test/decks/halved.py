@@ -117,7 +117,7 @@ def harmonics_that_last(folder, program):
             return ran.ended_with(0)
         summary = json.loads(read_text(os.path.join(folder, 'pile.json')))
         found.append(summary['point_errors'])
-        words.append('at least' in summary['errors']['in_words'])
+        words.append('displacement at least' in summary['errors']['in_words'])
     return [f'{own["name"]}: told {own["harmonics"]}, changed {change}' for own, other in zip(*found[:2])
             for change in [abs(other['displacement'] - own['displacement'])]
             if own['name'] != 'toe' and not LEAST[2]*change <= own['harmonics'] <= MOST*change] + (  # which turns aside

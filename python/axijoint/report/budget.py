@@ -1,7 +1,7 @@
 """What each approximation of a run leaves of the error, as its summary says it: key `errors`."""
 from .markup import is_number, joined, number, running, table, tag
 
-COLUMNS = {"energy": "energy", "displacement": "displacement", "joint_stress": "joint stress", "points": "at POINTS", "cuts": "on CUTS",
+COLUMNS = {"energy": "energy", "displacement": "displacement", "joint_stress": "joint stress", "points": "at POINTS", "cuts": "on CUTS", "sections": "on SECTIONS",
            "load": "load"}
 
 # What stands before values of the whole that are not plain by their keys
@@ -35,7 +35,7 @@ def errors(job):
             for source, share in shares.items()]
     return joined([*said, table("Left by each approximation",
                                 ["of", *(COLUMNS.get(key, words(key)) for key in keys), "seconds"], rows,
-                                "Estimates, relative; – is not known.", named_rows=True), *_at_points(job), *_on_cuts(job)])
+                                "Estimates, relative; – is not known.", named_rows=True), *_at_points(job), *_on_cuts(job), *_on_sections(job)])
 
 
 def _at_points(job):
@@ -56,6 +56,17 @@ def _on_cuts(job):
     return [table("Resultants on cuts", ["cut", *map(words, keys)], rows,
                   "Whatever their angle, and how far each may be off, all sources together [length, force, force length]; "
                   "– is not known.", named_rows=True)] if rows else []
+
+
+def _on_sections(job):
+    """How far the stresses along each section may be off, as a list of a table; an empty one without sections."""
+    found = [section for section in job.summary.get("section_errors") or [] if isinstance(section, dict)]
+    sources = list(dict.fromkeys(key for section in found for key in section if key not in ("section", "points", "judged")))
+    rows = [[section.get("section"), f"{section.get('judged')} of {section.get('points')}", *(_cell(section.get(key)) for key in sources)]
+            for section in found]
+    return [table("Stresses on sections", ["section", "points judged", *map(words, sources)], rows,
+                  "Largest of the six stresses along it, round the circle, and how far it may be off, in all and by source [stress]; "
+                  "points beside infinite stresses are not judged; – is not known.", named_rows=True)] if rows else []
 
 
 def line(job):

@@ -30,6 +30,14 @@ module axijoint_analysis_core_discretization_error
       real(wp), allocatable :: on_cuts(:, :)
       !> Least force that their errors are measured by: a small part of what joints that yield carried at most [force]
       real(wp) :: least_force = 0.0_wp
+      !> Error of the stresses along each line, shape (lines) [stress]; negative if not known
+      real(wp), allocatable :: on_lines(:)
+      !> Largest stress along each line, shape (lines), and largest amplitudes of each stress in each mode, shape (modes, 6, lines)
+      !> [stress]; negative and zero where no point is judged
+      real(wp), allocatable :: line_stress(:), line_amplitude(:, :, :)
+      !> Points of each line whose stress is judged, which are not in an element where it is infinite, and all in elements, shape
+      !> (2, lines)
+      integer, allocatable :: line_points(:, :)
       !> Largest error of a joint stress over the largest joint stress; negative without joints
       real(wp) :: joint_stress = -1.0_wp
       !> Largest joint stress of each mode, shape (modes), and what errors of joint stress are measured by, where it is

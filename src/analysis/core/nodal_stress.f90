@@ -12,7 +12,7 @@ module axijoint_analysis_core_nodal_stress
    use axijoint_model_model, only : model_type, on_axis
    implicit none
    private
-   public :: smooth_stress, pole_stress, number_values
+   public :: smooth_stress, stress_at_node, pole_stress, number_values, area
 
 contains
 
@@ -68,9 +68,9 @@ contains
       real(wp), intent(out) :: amplitude(:, :)
 
       type(reference_type), allocatable :: references(:)
-      real(wp) :: matrix(max_element_nodes, max_element_points), at_nodes(6, max_element_nodes)
+      real(wp) :: matrix(max_element_nodes, max_element_points)
       logical, allocatable :: pole(:)
-      integer :: element, n, n_points, last, i, p, kind, before
+      integer :: element, n, n_points, last, i, kind, before
 
       references = element_references(model%mesh)
       amplitude = 0.0_wp
@@ -87,19 +87,36 @@ contains
          associate (values => results%nodal%value_of(:n, element), &
                     nodes => model%mesh%element_nodes(:n, element))
             do i = 1, n
-               at_nodes(:, i) = 0.0_wp
-               do p = 1, n_points
-                  at_nodes(:, i) = at_nodes(:, i) + matrix(i, p)*results%stress(:, last + p, k)
-               end do
-               if (pole(nodes(i))) at_nodes(:, i) = &
-                  pole_stress(results%modes(k)%harmonic, at_nodes(:, i))
                amplitude(:, values(i)) = amplitude(:, values(i)) &
-                  + weight(element)/weight_sum(values(i))*at_nodes(:, i)
+                  + weight(element)/weight_sum(values(i))*stress_at_node(matrix(i, :n_points), &
+                  results%stress(:, last + 1:last + n_points, k), results%modes(k)%harmonic, pole(nodes(i)))
             end do
          end associate
          last = last + n_points
       end do
    end subroutine smooth_mode
+
+   !> Stress of an element at one of its nodes, by a smooth function fitted to that at its points
+   pure function stress_at_node(factor, stress, harmonic, pole) result(at_node)
+      !> What it takes of each point
+      real(wp), intent(in) :: factor(:)
+      !> Amplitudes at the points, shape (6, points)
+      real(wp), intent(in) :: stress(:, :)
+      !> Harmonic m
+      integer, intent(in) :: harmonic
+      !> Whether the node is on the axis
+      logical, intent(in) :: pole
+      !> Amplitudes
+      real(wp) :: at_node(6)
+
+      integer :: p
+
+      at_node = 0.0_wp
+      do p = 1, size(factor)
+         at_node = at_node + factor(p)*stress(:, p)
+      end do
+      if (pole) at_node = pole_stress(harmonic, at_node)
+   end function stress_at_node
 
    !> Stress on the axis that is nearest to a given one and has one value there,
    !> whatever the angle: a scalar sigma_r = sigma_theta and sigma_z in harmonic 0,

@@ -85,6 +85,10 @@ module axijoint_analysis_core_results
       real(wp) :: cuts = -1.0_wp
       !> The same of each by itself: axial force, lateral force, moment, torque, shape (4, cuts) [force, force length]
       real(wp), allocatable :: on_cuts(:, :)
+      !> Of the stresses along lines, over the largest on any
+      real(wp) :: sections = -1.0_wp
+      !> The same of each by itself [stress], shape (lines)
+      real(wp), allocatable :: on_lines(:)
       !> Of a load given as a function of theta: root mean square that is left out
       real(wp) :: load = -1.0_wp
       !> Time that the estimate took [second]
@@ -185,6 +189,8 @@ module axijoint_analysis_core_results
       !> Whether there are walls of so many elements across that estimates see their bending in part, or with so long ones at their
       !> edges that these see nothing of how they bend there
       logical :: bends_unseen = .false., edges_unseen = .false.
+      !> Whether there are such walls with elements at their edges that see a part of how stress changes there
+      logical :: stress_in_part = .false.
       !> Error of displacements or joint stresses that the iterations leave, where it is more than
       !> the tolerance claims; zero if it is not
       real(wp) :: unsettled = 0.0_wp

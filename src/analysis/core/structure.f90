@@ -4,6 +4,7 @@ module axijoint_analysis_core_structure
    use axijoint_analysis_core_cut_motion, only : cut_sections
    use axijoint_analysis_core_footprint, only : footprint_type, data_footprint
    use axijoint_analysis_core_results, only : ordering_type
+   use axijoint_analysis_core_watched_lines, only : watched_lines_type, new_watched_lines
    use axijoint_analysis_fine_level, only : fine_level_type, lay_out_level, is_laid_out, bytes_to_come, form_stiffness, &
       form_by_one, take_conditions, take_fine_model
    use axijoint_analysis_fine_mesh, only : fine_mesh_type, new_fine_mesh
@@ -72,6 +73,8 @@ module axijoint_analysis_core_structure
       !> Cuts of the job, and sections there
       type(loaded_plane_type), allocatable :: cuts(:)
       type(line_type), allocatable :: sections(:)
+      !> What is watched of the stresses along lines; not allocated if errors are not estimated, or there are none
+      type(watched_lines_type), allocatable :: watched
       !> Orders of the nodes side by side
       type(ordering_type), allocatable :: orderings(:)
       !> What rounding may leave of displacements, over the largest, without a step of refinement:
@@ -123,6 +126,7 @@ contains
       call timer%push(phase_assemble)
       if (structure%estimated) call form_fine_level(model, structure)
       if (allocated(structure%singular)) call judge_points(model%mesh, structure)
+      call watch_lines(model, structure)
       call timer%pop()
       call timer%push(phase_joints)
       call condense(model, structure, progress, error)
@@ -298,7 +302,7 @@ contains
    end subroutine condense
 
    !> Let a structure serve another job that has the same: the fine level knows its loads and laws, and
-   !> cuts may be elsewhere
+   !> cuts and lines may be elsewhere
    subroutine take_loads_of(model, structure)
       !> The job
       type(model_type), intent(in) :: model
@@ -309,7 +313,20 @@ contains
       if (structure%estimated) call take_fine_model(model, structure%fine)
       structure%cuts = new_loaded_planes(model)
       structure%sections = cut_sections(model%mesh, model%cuts)
+      call watch_lines(model, structure)
    end subroutine take_loads_of
+
+   !> Watch the stresses along lines, if their errors are estimated
+   subroutine watch_lines(model, structure)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> The structure, its singular places known
+      type(structure_type), intent(inout) :: structure
+
+      if (allocated(structure%watched)) deallocate (structure%watched)
+      if (.not. structure%estimated .or. size(model%lines) == 0) return
+      structure%watched = new_watched_lines(model, structure%fine%model%mesh, (structure%singular%node))
+   end subroutine watch_lines
 
    !> Assemble the equations of all modes
    subroutine assemble(model, structure, progress, error)

@@ -7,7 +7,7 @@ module axijoint_analysis_error_budget
       source_discretization, source_harmonics, &
       source_planes, source_iteration, source_solver, source_sum
    use axijoint_analysis_error_cut_errors, only : n_kinds, sizes_on_cuts, relative_on_cuts
-   use axijoint_analysis_error_response_tail, only : response_tail, tail_of_points, is_cancelled
+   use axijoint_analysis_error_response_tail, only : response_tail, tail_of_points, stress_tail, is_cancelled
    use axijoint_base_kinds, only : wp
    use axijoint_base_text, only : to_text
    use axijoint_fe_circle_function, only : are_alike
@@ -43,14 +43,16 @@ contains
       budget(source_iteration) = error_share_type(source=source_iteration, &
          remedy='half the tolerance in INCREMENTS')
       if (yields) then
-         call take(results%joint_errors(2), size(results%point_size), size(model%cuts), budget(source_planes))
-         call take(results%joint_errors(1), size(results%point_size), size(model%cuts), budget(source_iteration))
+         call take(model, results%joint_errors(2), budget(source_planes))
+         call take(model, results%joint_errors(1), budget(source_iteration))
       else
          budget(source_planes:source_iteration)%displacement = 0.0_wp
          budget(source_planes)%at_points = spread(0.0_wp, 1, size(results%point_size))
          budget(source_iteration)%at_points = budget(source_planes)%at_points
          budget(source_planes)%on_cuts = no_errors(size(model%cuts))
          budget(source_iteration)%on_cuts = no_errors(size(model%cuts))
+         budget(source_planes)%on_lines = spread(0.0_wp, 1, size(model%lines))
+         budget(source_iteration)%on_lines = budget(source_planes)%on_lines
          if (size(results%joint_stress) > 0) budget(source_planes:source_iteration)%joint_stress = 0.0_wp
       end if
       budget(source_solver) = error_share_type(source=source_solver, &
@@ -58,12 +60,17 @@ contains
       budget(source_solver)%displacement = solver_error(results)
       budget(source_solver)%at_points = spread(solver_error(results)*results%discretization%largest_displacement, 1, &
          size(results%point_size))
+      budget(source_solver)%on_lines = solver_error(results)*max(0.0_wp, stress_on_lines(model, results))
       sizes = sizes_on_cuts(results%cut_resultants)
       budget(source_solver)%on_cuts = spread(solver_error(results)*[(maxval([0.0_wp, sizes(i, :)]), i=1, n_kinds)], 2, &
          size(sizes, 2))
       do i = 1, size(budget)
-         if (results%at_rest) budget(i)%at_points = min(0.0_wp, budget(i)%at_points)
+         if (results%at_rest) then
+            budget(i)%at_points = min(0.0_wp, budget(i)%at_points)
+            budget(i)%on_lines = min(0.0_wp, budget(i)%on_lines)
+         end if
          call compare_points(results%point_size, results%discretization%largest_displacement, budget(i))
+         call compare_lines(stress_on_lines(model, results), budget(i))
          associate (x => model%mesh%coordinates)
             budget(i)%cuts = relative_on_cuts(budget(i)%on_cuts, sizes, &
                max(maxval(x(1, :)), maxval(x(2, :)) - minval(x(2, :))), results%discretization%least_force)
@@ -110,6 +117,8 @@ contains
       share%joint_stress = results%discretization%joint_stress
       share%at_points = results%discretization%at_points
       share%on_cuts = results%discretization%on_cuts
+      share%on_lines = spread(-1.0_wp, 1, size(model%lines))
+      if (allocated(results%discretization%on_lines)) share%on_lines = results%discretization%on_lines
       share%seconds = results%discretization%seconds
       if (results%locks) then
          share%remedy = 'elements that do not lock'
@@ -153,7 +162,7 @@ contains
       logical, allocatable :: counts(:)
       integer, allocatable :: harmonic(:), moved(:)
       real(wp), allocatable :: at_point(:, :, :)
-      integer :: k, p
+      integer :: i, k, p
 
       share%source = source_harmonics
       share%remedy = 'harmonics: M = '//to_text(max(model%max_harmonic + 1, nint(1.4142*model%max_harmonic)))// &
@@ -163,7 +172,8 @@ contains
       share%at_points = spread(0.0_wp, 1, size(results%point_size))
       share%on_cuts = no_errors(size(model%cuts))  ! of loads' harmonics above M none has resultants
       if (size(results%joint_stress) > 0) share%joint_stress = 0.0_wp
-      if (yields) call take(results%joint_errors(3), size(results%point_size), size(model%cuts), share)
+      share%on_lines = spread(0.0_wp, 1, size(model%lines))
+      if (yields) call take(model, results%joint_errors(3), share)
       if (size(excited_in_vain(model, results)) > 0) then
          call forget(share)
          share%on_cuts = -1.0_wp
@@ -205,6 +215,17 @@ contains
             amplitude = [(norm2(at_point(:, p, k)), k=1, size(results%modes))]
             call add_tail(largest_tail(model, case_factor, harmonic, pack(amplitude, counts), moved), 1.0_wp, share%at_points(p))
          end do
+         if (allocated(solution%line_amplitude)) then
+            do p = 1, size(model%lines)
+               tail = 0.0_wp
+               do i = 1, size(solution%line_amplitude, 2)
+                  amplitude = pack(solution%line_amplitude(:, i, p), counts)
+                  if (.not. maxval(amplitude) > 0.0_wp) cycle
+                  tail = max(tail, largest_tail(model, case_factor, harmonic, amplitude, moved, of_stress=.true.))
+               end do
+               call add_tail(tail, 1.0_wp, share%on_lines(p))
+            end do
+         end if
          ! joints that stay elastic may carry nothing at the angles where their stress is known
          call add_tail(largest_tail(model, case_factor, harmonic, pack(solution%joint_amplitude, counts), moved), &
             max(solution%joint_scale, maxval(solution%joint_amplitude)), share%joint_stress)
@@ -212,6 +233,19 @@ contains
          if (tail >= 0.0_wp) share%energy = sqrt(ratio(tail, sum(solution%energy)))
       end associate
    end function harmonics_share
+
+   !> Largest stress along each line
+   pure function stress_on_lines(model, results) result(stress)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Results
+      type(results_type), intent(in) :: results
+      !> Shape (lines) [stress]; negative if no point is judged
+      real(wp) :: stress(size(model%lines))
+
+      stress = -1.0_wp
+      if (allocated(results%discretization%line_stress)) stress = results%discretization%line_stress
+   end function stress_on_lines
 
    !> Errors of displacements and joint stress are not known
    pure subroutine forget(share)
@@ -221,10 +255,11 @@ contains
       share%displacement = -1.0_wp
       share%joint_stress = -1.0_wp
       share%at_points = -1.0_wp
+      share%on_lines = -1.0_wp
    end subroutine forget
 
    !> What harmonics above M would add to the response, by that of the loads which is most; negative if it is not known
-   pure real(wp) function largest_tail(model, case_factor, harmonic, amplitude, without) result(tail)
+   pure real(wp) function largest_tail(model, case_factor, harmonic, amplitude, without, of_stress) result(tail)
       !> The job
       type(model_type), intent(in) :: model
       !> Factors of its load cases, shape (cases)
@@ -234,16 +269,27 @@ contains
       real(wp), intent(in) :: amplitude(:)
       !> Harmonics up to M of which these tell nothing
       integer, intent(in) :: without(:)
+      !> Whether the response is a stress; false if absent
+      logical, intent(in), optional :: of_stress
 
+      logical :: stress
       integer :: k
 
+      stress = .false.
+      if (present(of_stress)) stress = of_stress
       tail = -1.0_wp
       do k = 1, size(model%truncations)
          associate (cut => model%truncations(k))
             if (.not. (cut%left_out > 0.0_wp .and. abs(case_factor(cut%case)) > 0.0_wp)) cycle
             if (allocated(cut%course)) then
                if (is_like_the_last(model, k)) cycle
-               tail = max(tail, response_tail(harmonic, amplitude, cut%course, without))
+               if (stress) then
+                  tail = max(tail, stress_tail(harmonic, amplitude, cut%course, without))
+               else
+                  tail = max(tail, response_tail(harmonic, amplitude, cut%course, without))
+               end if
+            else if (stress) then
+               tail = max(tail, stress_tail(harmonic, amplitude))
             else
                tail = max(tail, tail_of_points(harmonic, amplitude))
             end if
@@ -276,19 +322,21 @@ contains
    end subroutine add_tail
 
    !> Take an estimate of the joints
-   pure subroutine take(error, n, n_cuts, share)
+   pure subroutine take(model, error, share)
+      !> The job
+      type(model_type), intent(in) :: model
       !> The estimate
       type(error_share_type), intent(in) :: error
-      !> Points with names, and cuts
-      integer, intent(in) :: n, n_cuts
       !> The share
       type(error_share_type), intent(inout) :: share
 
       share%displacement = error%displacement
       share%joint_stress = error%joint_stress
-      share%at_points = spread(-1.0_wp, 1, n)
+      share%at_points = spread(-1.0_wp, 1, size(model%points))
       if (allocated(error%at_points)) share%at_points = error%at_points
-      share%on_cuts = no_errors(n_cuts) - 1.0_wp
+      share%on_lines = spread(-1.0_wp, 1, size(model%lines))
+      if (allocated(error%on_lines)) share%on_lines = error%on_lines
+      share%on_cuts = no_errors(size(model%cuts)) - 1.0_wp
       if (allocated(error%on_cuts)) share%on_cuts = error%on_cuts
       share%seconds = error%seconds
    end subroutine take
@@ -318,6 +366,18 @@ contains
       share%points = ratio(maxval(share%at_points), max(maxval(displacement), slight*largest))
    end subroutine compare_points
 
+   !> Largest error of the stress along a line over the largest stress along any; where it is not known of one, of the others
+   pure subroutine compare_lines(stress, share)
+      !> Largest stress along each, shape (lines)
+      real(wp), intent(in) :: stress(:)
+      !> Errors of each; takes the ratio
+      type(error_share_type), intent(inout) :: share
+
+      share%sections = -1.0_wp
+      if (size(stress) == 0) return
+      if (any(share%on_lines >= 0.0_wp)) share%sections = ratio(maxval(share%on_lines), maxval(stress))
+   end subroutine compare_lines
+
    !> All shares together, each quantity without those that are not known; negative if none is
    pure function sum_of_shares(budget) result(total)
       !> The budget
@@ -333,6 +393,12 @@ contains
       total%joint_stress = known_sum((budget%joint_stress))
       total%points = known_sum((budget%points))
       total%cuts = known_sum((budget%cuts))
+      total%sections = known_sum((budget%sections))
+      allocate (total%on_lines(size(budget(1)%on_lines)), source=-1.0_wp)
+      do p = 1, size(total%on_lines)
+         if (all([(budget(i)%on_lines(p), i=1, size(budget))] >= 0.0_wp)) &
+            total%on_lines(p) = sum([(budget(i)%on_lines(p), i=1, size(budget))])
+      end do
       allocate (total%on_cuts, mold=budget(1)%on_cuts)
       do p = 1, size(total%on_cuts, 2)
          total%on_cuts(:, p) = -1.0_wp  ! a sum without one of them would be taken for all

@@ -6,6 +6,8 @@ module axijoint_analysis_error_discretization
    use axijoint_analysis_core_results, only : results_type
    use axijoint_analysis_core_structure, only : structure_type
    use axijoint_analysis_core_totals, only : largest, largest_vector, of_component
+   use axijoint_analysis_core_watched_lines, only : largest_on_lines, amplitude_on_lines
+   use axijoint_analysis_core_watched_stress, only : watched_values
    use axijoint_analysis_error_cut_errors, only : n_kinds, sizes_on_cuts
    use axijoint_analysis_error_largest_stress, only : largest_elastic_stress
    use axijoint_analysis_error_rounding, only : is_slight, rounding_energy, rounding_stress
@@ -76,6 +78,7 @@ contains
          estimate%displacement = -1.0_wp
          allocate (estimate%at_points(size(model%points)), source=-1.0_wp)
          allocate (estimate%on_cuts(n_kinds, size(model%cuts)), source=-1.0_wp)
+         call note_lines(structure, results)
          estimate%joint_stress = -1.0_wp
          if (mesh_error%known) then
             estimate%displacement = ratio(largest_vector(results%modes, mesh_error%displacement), &
@@ -83,6 +86,8 @@ contains
             estimate%at_points = largest_error_at_points(model%points, results%modes, mesh_error%displacement)
             if (allocated(mesh_error%on_cuts)) where (spread(mesh_error%known_on_cuts, 1, n_kinds)) &
                estimate%on_cuts = sizes_on_cuts(mesh_error%on_cuts)
+            if (allocated(mesh_error%on_lines)) &
+               estimate%on_lines = largest_on_lines(structure%watched, results%modes, mesh_error%on_lines)
             if (results%at_rest) estimate%displacement = 0.0_wp
             estimate%joint_stress = joint_stress_error()
          end if
@@ -115,6 +120,27 @@ contains
       end function joint_stress_error
 
    end subroutine estimate_discretization
+
+   !> Stresses along lines, which their errors are parts of
+   subroutine note_lines(structure, results)
+      !> What is watched
+      type(structure_type), intent(in) :: structure
+      !> Results with stresses at nodes; takes those along lines
+      type(results_type), intent(inout) :: results
+
+      real(wp), allocatable :: values(:, :, :)
+      integer :: k
+
+      if (.not. allocated(structure%watched)) return
+      associate (estimate => results%discretization, watched => structure%watched)
+         values = watched_values(watched%coarse, results%nodal)
+         estimate%line_stress = largest_on_lines(watched, results%modes, values)
+         estimate%line_amplitude = amplitude_on_lines(watched, values)
+         estimate%line_points = reshape([(size(watched%lines(k)%values, 2), watched%lines(k)%n_points, k=1, size(watched%lines))], &
+            [2, size(watched%lines)])
+         allocate (estimate%on_lines(size(watched%lines)), source=-1.0_wp)
+      end associate
+   end subroutine note_lines
 
    !> Where patches see less than the difference to the fine mesh has, which is no more than the error has (Galerkin's solutions
    !> on nested meshes), let the errors of the elements come to what that tells in all: polynomials on patches take for smooth

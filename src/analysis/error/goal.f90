@@ -9,7 +9,7 @@ module axijoint_analysis_error_goal
    use axijoint_model_model, only : model_type, method_newton
    use axijoint_model_modes, only : used_modes, greatest_divisor
    use axijoint_model_request, only : error_goal_type, refinement_type, goal_joints, &
-      goal_displacement, goal_energy, goal_points, goal_cuts
+      goal_displacement, goal_energy, goal_points, goal_cuts, goal_sections
    implicit none
    private
    public :: goal_error, unknown_source, refine_further, room_for, mesh_misses
@@ -97,6 +97,7 @@ contains
       sees_part = .false.
       if (share%source /= source_discretization) return
       sees_part = results%hides_errors() .or. (results%torn .and. goal%quantity == goal_joints) .or. &
+         (results%stress_in_part .and. goal%quantity == goal_sections) .or. &
          (share%joint_stress < 0.0_wp .and. any(results%budget%joint_stress >= 0.0_wp))
    end function sees_part
 
@@ -129,6 +130,8 @@ contains
          share_of = share%points
       case (goal_cuts)
          share_of = share%cuts
+      case (goal_sections)
+         share_of = share%sections
       case default
          share_of = share%displacement
       end select
@@ -142,7 +145,7 @@ contains
       integer, intent(in) :: quantity
 
       ! orders of meshes at corners that make stresses infinite
-      real(wp), parameter :: order(5) = [1.0_wp, 1.5_wp, 0.75_wp, 1.5_wp, 1.0_wp]  ! JOINTS, DISPL, ENERGY, POINTS, CUTS
+      real(wp), parameter :: order(6) = [1.0_wp, 1.5_wp, 0.75_wp, 1.5_wp, 1.0_wp, 1.5_wp]  ! as `goal_names`
 
       select case (source)
       case (source_discretization)

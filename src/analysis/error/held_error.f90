@@ -233,8 +233,8 @@ contains
 
       do i = 1, size(under_way%held)
          associate (held => under_way%held(i), state => under_way%states(i))
-            call new_difference(size(state%displacement, 2), size(structure%joint_points), size(structure%modes), &
-               n_with_resultants(structure), held%difference)
+            call new_difference(size(state%displacement, 2), size(structure%joint_points), &
+               size(structure%fine%near_lines), size(structure%modes), n_with_resultants(structure), held%difference)
             held%load = new_fine_load(structure%fine, structure%modes, state%loading)
             held%steps = steps_of(state%loading, held%excess)
          end associate

@@ -7,12 +7,14 @@ module axijoint_analysis_error_yielding_errors
    use axijoint_analysis_core_results, only : results_type, error_share_type
    use axijoint_analysis_core_structure, only : structure_type
    use axijoint_analysis_core_totals, only : largest_vector
+   use axijoint_analysis_core_watched_lines, only : largest_on_lines
    use axijoint_analysis_error_cut_errors, only : change_on_cuts, find_held_on_cuts, sizes_on_cuts
    use axijoint_analysis_error_excess_effect, only : find_effects
    use axijoint_analysis_error_follower, only : follower_type, new_follower, follow_behind
    use axijoint_analysis_error_held_error, only : judged_state_type, held_errors_type, error_of_held, &
       find_of_system, find_of_systems, end_by_law
    use axijoint_analysis_error_iteration_left, only : iteration_left_type
+   use axijoint_analysis_error_line_errors, only : change_on_lines, find_held_on_lines, stress_beyond
    use axijoint_analysis_error_joint_shares, only : take_share, nothing_is_left, has_moved, unloaded, least_changes
    use axijoint_analysis_error_joints_mesh_error, only : begin_held_errors, find_answer, add_answer
    use axijoint_analysis_error_remembered, only : solved_way_type, look_back, follow_way, leaves_rest
@@ -84,26 +86,30 @@ contains
          call take_share(structure, history, results, largest, changes%iteration, left%effect(:, :, :, 1), shares(1), model%points)
          call take_share(structure, history, results, largest, changes%planes, others(:, :, :, 1), shares(2), model%points)
          call take_share(structure, history, results, largest, changes%harmonics, others(:, :, :, 2), shares(3), model%points)
-         call take_cuts(changes%iteration, left%effect(:, :, :, 1), shares(1))
-         call take_cuts(changes%planes, others(:, :, :, 1), shares(2))
-         call take_cuts(changes%harmonics, others(:, :, :, 2), shares(3))
+         call take_cuts_and_lines(changes%iteration, left%effect(:, :, :, 1), shares(1))
+         call take_cuts_and_lines(changes%planes, others(:, :, :, 1), shares(2))
+         call take_cuts_and_lines(changes%harmonics, others(:, :, :, 2), shares(3))
+         if (allocated(shares(3)%on_lines)) shares(3)%on_lines = shares(3)%on_lines + stress_beyond(model, structure, &
+            history%scene%planes, left%balanced%stress, displacement)
       end associate
       ! what slip has left is as wrong as the mesh was under the loads that are gone
       if (unloaded(history) .and. .not. mesh_error%follows_slip) mesh_error%known = .false.
 
    contains
 
-      !> Errors of the resultants on cuts
-      subroutine take_cuts(change, effect, share)
+      !> Errors of the resultants on cuts, and of the stresses along lines
+      subroutine take_cuts_and_lines(change, effect, share)
          !> A change of the joints, and the displacements that follow from it, shape (3, nodes, modes)
          type(joint_change_type), intent(in) :: change
          real(wp), intent(in) :: effect(:, :, :)
          !> Takes the errors, if they are known
          type(error_share_type), intent(inout) :: share
 
-         if (size(model%cuts) == 0 .or. .not. change%known) return
-         share%on_cuts = sizes_on_cuts(change_on_cuts(model, structure, change, effect))
-      end subroutine take_cuts
+         if (.not. change%known) return
+         if (size(model%cuts) > 0) share%on_cuts = sizes_on_cuts(change_on_cuts(model, structure, change, effect))
+         if (allocated(structure%watched)) share%on_lines = largest_on_lines(structure%watched, structure%modes, &
+            change_on_lines(model, structure, effect))
+      end subroutine take_cuts_and_lines
 
    end subroutine estimate_yielding_errors
 
@@ -309,9 +315,13 @@ contains
       answer = all(3)
       call find_held_on_cuts(model, structure, loading, displacement, mesh_error)
       if (.not. answer%known .and. allocated(mesh_error%on_cuts)) deallocate (mesh_error%on_cuts)
+      call find_held_on_lines(model, structure, loading, displacement, mesh_error)
+      if (.not. answer%known .and. allocated(mesh_error%on_lines)) deallocate (mesh_error%on_lines)
       if (.not. answered) return
       if (allocated(mesh_error%on_cuts)) mesh_error%on_cuts = mesh_error%on_cuts &
          + change_on_cuts(model, structure, answer, effect(:, :, :, 3))
+      if (allocated(mesh_error%on_lines)) mesh_error%on_lines = mesh_error%on_lines &
+         + change_on_lines(model, structure, effect(:, :, :, 3))
       mesh_error%known = mesh_error%known .and. answer%known
       call add_answer(structure, answer, effect(:, :, :, 3), mesh_error)
    end subroutine find_their_effects

@@ -44,6 +44,8 @@ module axijoint_analysis_fine_difference
       !> Forces of what holds it, supports and springs, shared by the nodes of the coarse mesh, of as many of the first modes as
       !> are asked for, shape (3, nodes, these)
       real(wp), allocatable :: holding(:, :, :)
+      !> At fine nodes near lines (`near_lines` of the level), shape (3, those nodes, modes)
+      real(wp), allocatable :: near_lines(:, :, :)
       !> Whether what was found is made of numbers, shape (modes)
       logical, allocatable :: known(:)
       !> Time of all threads [second], and share of the time of the solution that went into
@@ -67,9 +69,9 @@ module axijoint_analysis_fine_difference
 contains
 
    !> No difference
-   subroutine new_difference(n_nodes, n_points, n_modes, n_holding, difference)
-      !> Nodes, joint points, modes
-      integer, intent(in) :: n_nodes, n_points, n_modes
+   subroutine new_difference(n_nodes, n_points, n_near, n_modes, n_holding, difference)
+      !> Nodes, joint points, fine nodes near lines, modes
+      integer, intent(in) :: n_nodes, n_points, n_near, n_modes
       !> Of how many of the first modes forces of what holds it are asked for
       integer, intent(in) :: n_holding
       !> The difference
@@ -78,6 +80,7 @@ contains
       allocate (difference%displacement(3, n_nodes, n_modes), source=0.0_wp)
       allocate (difference%jump(3, n_points, n_modes), source=0.0_wp)
       allocate (difference%holding(3, n_nodes, n_holding), source=0.0_wp)
+      allocate (difference%near_lines(3, n_near, n_modes), source=0.0_wp)
       allocate (difference%energy(n_modes), source=0.0_wp)
       allocate (difference%known(n_modes), source=.true.)
    end subroutine new_difference
@@ -94,6 +97,9 @@ contains
          call equations%team%gather(jump, size(jump, kind=i8), equations%last_mode)
          associate (holding => difference%holding)
             call equations%team%gather(holding, size(holding, kind=i8), min(equations%last_mode, size(holding, 3)))
+         end associate
+         associate (near => difference%near_lines)
+            call equations%team%gather(near, size(near, kind=i8), equations%last_mode)
          end associate
          call equations%team%gather(difference%energy, size(difference%energy, kind=i8), equations%last_mode)
       end associate
@@ -241,7 +247,7 @@ contains
                call keep_apart(way(:, :, :step - 1), room%pull(:, :, :step - 1), energy(:step - 1), room%u)
                call see_change(level, of_blocks, room%u, size(difference%displacement, 2), room%external, jump)
                if (step > steps .or. is_small(room%external, jump, difference, k)) then
-                  call add_change(room%external, jump, 0.5_wp*of_blocks*work(room%u, force), k, difference)
+                  call add_change(level, room%external, jump, 0.5_wp*of_blocks*work(room%u, force), k, difference)
                   if (k <= size(difference%holding, 3)) call add_springs(level, equations%modes(k)%harmonic, of_blocks, room%u, &
                      difference%holding(:, :, k))
                   exit
@@ -358,7 +364,7 @@ contains
 
       call see_change(level, length, room%way(:, :, i), size(difference%displacement, 2), room%external, jump)
       small = is_small(room%external, jump, difference, k)
-      call add_change(room%external, jump, 0.5_wp*length**2*energy, k, difference)
+      call add_change(level, room%external, jump, 0.5_wp*length**2*energy, k, difference)
       call daxpy(size(room%force), -length, room%pull(:, :, i), 1, room%force, 1)
       associate (conditions => level%conditions(equations%systems(equations%system(k))%class))
          call take_reactions(conditions, room%force)
@@ -446,7 +452,7 @@ contains
       end do
    end subroutine keep_apart
 
-   !> What going so far does to the nodes and joint points of the coarse mesh
+   !> What going so far does to the nodes and joint points of the coarse mesh, and to fine nodes near lines
    pure subroutine see_change(level, length, d, n, change, jump)
       !> The fine level
       type(fine_level_type), intent(in) :: level
@@ -454,7 +460,7 @@ contains
       real(wp), intent(in) :: length, d(:, :)
       !> Nodes of the coarse mesh
       integer, intent(in) :: n
-      !> Takes displacements by number of the node, shape (3, fine nodes): of the nodes of the coarse mesh, and of joints
+      !> Takes displacements by number of the node, shape (3, fine nodes): of the nodes of the coarse mesh, of joints and near lines
       real(wp), intent(inout) :: change(:, :)
       !> Takes jumps, shape (3, points)
       real(wp), allocatable, intent(out) :: jump(:, :)
@@ -463,6 +469,7 @@ contains
       integer :: k, m
 
       change(:, :n) = length*d(:, level%stiffness%place(:n))
+      change(:, level%near_lines) = length*d(:, level%stiffness%place(level%near_lines))
       do k = 1, size(level%joint_points)
          associate (nodes => level%joint_points(k)%nodes(:2*level%joint_points(k)%n_pairs))
             change(:, nodes) = length*d(:, level%stiffness%place(nodes))
@@ -500,7 +507,9 @@ contains
    end function is_part
 
    !> Add a change of a mode
-   pure subroutine add_change(change, jump, energy, k, difference)
+   pure subroutine add_change(level, change, jump, energy, k, difference)
+      !> The fine level
+      type(fine_level_type), intent(in) :: level
       !> The change at the nodes, those of the coarse mesh first, and of the jumps, shape (3, any)
       real(wp), intent(in) :: change(:, :), jump(:, :)
       !> Its energy
@@ -514,6 +523,7 @@ contains
          u = u + change(:, :size(u, 2))
       end associate
       difference%jump(:, :, k) = difference%jump(:, :, k) + jump
+      difference%near_lines(:, :, k) = difference%near_lines(:, :, k) + change(:, level%near_lines)
       difference%energy(k) = difference%energy(k) + energy
    end subroutine add_change
 

@@ -18,9 +18,10 @@ module axijoint_analysis_fine_level
    use axijoint_element_joint, only : new_joint_point, lower_node
    use axijoint_fe_mode, only : mode_type
    use axijoint_fe_shape, only : lagrange
+   use axijoint_fe_subdivision, only : n_children
    use axijoint_linalg_lapack, only : dpbtrf, dpbtrs
    use axijoint_model_joint_points, only : model_joint_point_type, new_joint_points, joint_rule, stiffest_sliding
-   use axijoint_model_mesh, only : mesh_type
+   use axijoint_model_mesh, only : mesh_type, n_nodes, n_elements
    use axijoint_model_model, only : model_type
    use axijoint_order_graph, only : graph_type
    implicit none
@@ -61,8 +62,12 @@ module axijoint_analysis_fine_level
       type(conditions_type), allocatable :: conditions(:)
       !> Whether there are walls whose bending it sees in part, or at whose edges it sees none
       logical :: bends_unseen = .false., edges_unseen = .false.
+      !> Whether elements there see a part of how stress changes
+      logical :: stress_in_part = .false.
       !> Blocks of nodes
       type(block_groups_type) :: blocks
+      !> Fine nodes of elements whose stresses count in results along lines
+      integer, allocatable :: near_lines(:)
       !> Time that all this took, over the threads that worked at once [second]
       real(wp) :: seconds = 0.0_wp
    end type fine_level_type
@@ -93,9 +98,11 @@ contains
       level%joint_points = new_joint_points(level%model)
       level%support_points = new_support_points(level%model)
       call place_joint_points(model, level)
+      level%near_lines = nodes_near_lines(model, level%model%mesh)
       walls = find_walls(model%mesh)
       level%bends_unseen = walls%bends_unseen
       level%edges_unseen = walls%edges_unseen
+      level%stress_in_part = walls%stress_in_part
       block = new_blocks(model%mesh, level%mesh, walls%across > 0.0_wp)
       graph = graph_of_blocks(level%model%mesh, block)
       call order_by_blocks(model%mesh, level%mesh, graph, block, order)
@@ -103,6 +110,37 @@ contains
       level%parents = ordered(level%mesh%parents, order)
       call new_blocks_in_order(level%stiffness, graph, block, order, level%blocks)
    end subroutine lay_out_level
+
+   !> Fine nodes of the elements that share a node with those that the points of lines lie in: stresses are averaged at nodes
+   pure function nodes_near_lines(model, fine) result(nodes)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> The fine mesh
+      type(mesh_type), intent(in) :: fine
+      !> Ascending
+      integer, allocatable :: nodes(:)
+
+      logical :: crossed(n_nodes(model%mesh)), near(n_nodes(fine))
+      integer :: e, k, p
+
+      crossed = .false.
+      do k = 1, size(model%lines)
+         do p = 1, size(model%lines(k)%points)
+            e = model%lines(k)%points(p)%element
+            crossed(model%mesh%element_nodes(:model%mesh%element_size(e), e)) = .true.
+         end do
+      end do
+      near = .false.
+      if (any(crossed)) then
+         do e = 1, n_elements(fine)
+            associate (parent => (e - 1)/n_children + 1)
+               if (any(crossed(model%mesh%element_nodes(:model%mesh%element_size(parent), parent)))) &
+                  near(fine%element_nodes(:fine%element_size(e), e)) = .true.
+            end associate
+         end do
+      end if
+      nodes = pack([(k, k=1, size(near))], near)
+   end function nodes_near_lines
 
    !> Whether the fine level is laid out
    pure logical function is_laid_out(level)
@@ -197,6 +235,7 @@ contains
       type(fine_level_type), intent(inout) :: level
 
       call new_fine_model(model, level%mesh, level%model)
+      level%near_lines = nodes_near_lines(model, level%model%mesh)
    end subroutine take_fine_model
 
    !> Loads of a combination on the fine mesh

@@ -28,6 +28,10 @@ module axijoint_analysis_fine_mesh_error
       !> Forces on nodes besides those of jumps: of supports and springs, and of the excess stress of joints, which finer ones
       !> integrate otherwise. Of as many of the first modes as are asked for, shape (3, nodes, these); not allocated if not known
       real(wp), allocatable :: acting(:, :, :)
+      !> Difference to the solution on a mesh of elements half as large at its nodes near lines, shape (3, those nodes, modes)
+      real(wp), allocatable :: near_lines(:, :, :)
+      !> Of the stresses along lines, at the nodes of their elements, amplitudes, shape (6, values, modes); not allocated if not known
+      real(wp), allocatable :: on_lines(:, :, :)
       !> Of the resultants on cuts, shape (n_resultants, cuts); not allocated if not known
       real(wp), allocatable :: on_cuts(:, :)
       !> Whether that is known of a cut, shape (cuts)
@@ -54,13 +58,14 @@ contains
       error%displacement = error_over_difference*difference%displacement
       error%jump = error_over_difference*difference%jump
       error%acting = error_over_difference*difference%holding
+      error%near_lines = difference%near_lines
       error%energy = error_over_difference*difference%energy  ! falls as displacements do at corners
       error%seconds = difference%seconds
       error%known = all(difference%known)
       if (error%known) return
       error%displacement = 0.0_wp
       error%jump = 0.0_wp
-      deallocate (error%acting)
+      deallocate (error%acting, error%near_lines)
       error%energy = 0.0_wp
    end subroutine new_mesh_error
 

@@ -10,12 +10,13 @@ module axijoint_deck_section_error
    use axijoint_deck_section_increments, only : keyword_increments, field_tolerance
    use axijoint_deck_section_cuts, only : keyword_cuts
    use axijoint_deck_section_points, only : keyword_points
+   use axijoint_deck_section_sections, only : keyword_sections
    use axijoint_deck_text_entry, only : integer_of, real_of, card_fault, field_fault
    use axijoint_deck_text_field, only : integer_field, real_field, word_field, described
    use axijoint_deck_text_sections, only : sections_type, table_of
    use axijoint_deck_text_table, only : table_type
    use axijoint_model_model, only : method_newton
-   use axijoint_model_request, only : refinement_type, goal_names, goal_displacement, goal_points, goal_cuts, &
+   use axijoint_model_request, only : refinement_type, goal_names, goal_displacement, goal_points, goal_cuts, goal_sections, &
       division_names, division_graded
    implicit none
    private
@@ -44,7 +45,8 @@ contains
                     limits='0 < … ≤ 100'), &
           described(word_field('the quantity', 11, 20, goal_names, goal_displacement), &
                     'of what: JOINTS (joint stress), DISPL (displacements), ENERGY (stresses '// &
-                    'in the energy norm), POINTS (displacements at points of POINTS), CUTS (resultants on CUTS)'), &
+                    'in the energy norm), POINTS (displacements at points of POINTS), CUTS (resultants on CUTS), SECTIONS '// &
+                    '(stresses along SECTIONS)'), &
           integer_field('the most rounds', 21, 25, 1, 99, default=8), &
           described(integer_field('the most unknowns', 26, 35, 1, 1000000000, default=1000000), &
                     'most unknowns in all: no round is begun that could have more'), &
@@ -59,7 +61,7 @@ contains
       type(deck_type), intent(inout), target :: deck
 
       type(card_type) :: card
-      type(table_type), pointer :: points, cuts
+      type(table_type), pointer :: points, cuts, sections
 
       deck%model%error_goal%mesh_too = can_refine_mesh(deck%sections)
       deck%model%error_goal%remesh = can_remake_mesh(deck%sections)
@@ -85,6 +87,9 @@ contains
          cuts => table_of(deck%sections, keyword_cuts)
          if (goal%quantity == goal_cuts .and. cuts%n == 0) call field_fault(card, field_quantity, &
             'there is no cut', allowed='another quantity, or cuts in the section CUTS')
+         sections => table_of(deck%sections, keyword_sections)
+         if (goal%quantity == goal_sections .and. sections%n == 0) call field_fault(card, field_quantity, &
+            'there is no line', allowed='another quantity, or lines in the section SECTIONS')
       end associate
    end subroutine read_goal
 

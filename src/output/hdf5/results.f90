@@ -277,6 +277,18 @@ contains
                "Of axial force, lateral force, moment, torque, whatever their angle, on each cut, as in /cuts; "// &
                "(4, cut, source) [force, force length], negative if not known")
          end if
+         if (allocated(results%discretization%line_stress)) then
+            call file%write("/errors/sections", (budget%sections), &
+               "Of stresses along sections, over the largest on any; (source), relative, negative if not known")
+            call file%write("/errors/on_sections", reshape([(budget(i)%on_lines, i=1, size(budget))], &
+               [size(budget(1)%on_lines), size(budget)]), &
+               "Of the largest of six stresses along each section, round the circle, as in /sections; "// &
+               "(section, source) [stress], negative if not known")
+            call file%write("/errors/section_stress", results%discretization%line_stress, &
+               "Largest stress along each of them, where it is judged; (section) [stress], negative where it is nowhere")
+            call file%write("/errors/section_points", results%discretization%line_points, &
+               "Points of each that are judged, away from infinite stresses, and all in elements; (2, section)")
+         end if
          if (size(results%point_size) == 0) return
          call file%write("/errors/points", (budget%points), &
             "Of displacements at points with names, over the largest of these; (source), relative, negative if not known")

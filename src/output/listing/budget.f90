@@ -47,7 +47,7 @@ contains
       !> Results
       type(results_type), intent(in) :: results
 
-      logical :: points, cuts
+      logical :: points, cuts, sections
       integer :: i
 
       if (.not. allocated(results%budget)) return
@@ -55,17 +55,20 @@ contains
          results%converged)
       points = size(model%points) > 0
       cuts = size(model%cuts) > 0
+      sections = size(model%lines) > 0
       call file%put("  left by           energy norm   displacement   joint stress"// &
-         repeat("      at POINTS", merge(1, 0, points))//repeat("        on CUTS", merge(1, 0, cuts))//"           load")
+         repeat("      at POINTS", merge(1, 0, points))//repeat("        on CUTS", merge(1, 0, cuts))// &
+         repeat("    on SECTIONS", merge(1, 0, sections))//"           load")
       do i = 1, size(results%budget)
-         call file%put(share_line(results%budget(i), points, cuts))
+         call file%put(share_line(results%budget(i), points, cuts, sections))
       end do
-      call file%put(share_line(sum_of_shares(results%budget), points, cuts))
+      call file%put(share_line(sum_of_shares(results%budget), points, cuts, sections))
       call write_sentence(file, "  ", sum_text(results))
       if (len(remedy_text(results%budget)) > 0) &
          call file%put("  about half with "//remedy_text(results%budget))
       if (points) call write_points(file, model, results)
       if (cuts) call write_cut_errors(file, model, results)
+      if (sections) call write_line_errors(file, model, results)
    end subroutine write_budget
 
    !> Errors of the resultants on cuts, and the largest of each kind by what leaves them
@@ -123,32 +126,76 @@ contains
       !> Results with a budget
       type(results_type), intent(in) :: results
 
-      character(len=10) :: label
-      character(len=len(source_names)) :: name
+      character(len=28) :: names(size(model%points))
       type(error_share_type) :: total
+      integer :: i, p
+
+      do p = 1, size(names)
+         write (names(p), "(i10, 2x, a)") model%points(p)%label, model%points(p)%name
+      end do
+      total = sum_of_shares(results%budget)
+      call write_result_heading(file, "ERRORS AT POINTS (estimates of the largest round the circle; - not known)", &
+         results%converged)
+      call write_places(file, results, "     point  name              displacement", names, results%point_size, total%at_points, &
+         reshape([(results%budget(i)%at_points, i=1, size(results%budget))], [size(names), size(results%budget)]))
+   end subroutine write_points
+
+   !> Errors of the stresses along lines
+   subroutine write_line_errors(file, model, results)
+      !> The listing
+      class(text_file_type), intent(inout) :: file
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Results with a budget
+      type(results_type), intent(in) :: results
+
+      character(len=28) :: names(size(model%lines))
+      type(error_share_type) :: total
+      integer :: i, k
+
+      do k = 1, size(names)
+         associate (points => results%discretization%line_points(:, k))
+            write (names(k), "(i10, a18)") model%lines(k)%label, to_text(points(1))//" of "//to_text(points(2))
+         end associate
+      end do
+      total = sum_of_shares(results%budget)
+      call write_result_heading(file, "ERRORS ON SECTIONS (estimates, of the largest stress round the circle; - not known)", &
+         results%converged)
+      call write_places(file, results, "   section     points judged        stress", names, results%discretization%line_stress, &
+         total%on_lines, reshape([(results%budget(i)%on_lines, i=1, size(results%budget))], [size(names), size(results%budget)]))
+   end subroutine write_line_errors
+
+   !> Errors place by place, by what leaves them
+   subroutine write_places(file, results, head, names, sizes, total, errors)
+      !> The listing
+      class(text_file_type), intent(inout) :: file
+      !> Results with a budget
+      type(results_type), intent(in) :: results
+      !> Names of the first columns
+      character(len=*), intent(in) :: head
+      !> What stands in front of each row
+      character(len=*), intent(in) :: names(:)
+      !> What errors are parts of, the errors, and what sources leave of them, shape (places) and (places, sources); negative if not
+      !> known
+      real(wp), intent(in) :: sizes(:), total(:), errors(:, :)
+
+      character(len=len(source_names)) :: name
       character(len=:), allocatable :: line
       real(wp) :: relative
       integer :: i, p
 
-      total = sum_of_shares(results%budget)
-      call write_result_heading(file, "ERRORS AT POINTS (estimates of the largest round the circle; - not known)", &
-         results%converged)
-      line = "     point  name              displacement       error    relative"
-      do i = 1, size(results%budget)
+      line = head//"       error    relative"
+      do i = 1, size(errors, 2)
          name = source_names(results%budget(i)%source)
          line = line//repeat(" ", column(i) - len_trim(name))//trim(name)
       end do
       call file%put(line)
-      do p = 1, size(model%points)
-         write (label, "(i10)") model%points(p)%label
-         associate (moved => results%point_size(p), error => total%at_points(p))
-            relative = -1.0_wp  ! where nothing moves it means nothing
-            if (moved > error) relative = max(-1.0_wp, error/moved)
-            line = label//"  "//model%points(p)%name//columns([moved], wide - 1)//known_column(error, narrow)// &
-               known_column(relative, narrow)
-         end associate
-         do i = 1, size(results%budget)
-            line = line//known_column(results%budget(i)%at_points(p), column(i))
+      do p = 1, size(names)
+         relative = -1.0_wp  ! where there is nothing it means nothing
+         if (sizes(p) > total(p)) relative = max(-1.0_wp, total(p)/sizes(p))
+         line = names(p)//known_column(sizes(p), wide - 1)//known_column(total(p), narrow)//known_column(relative, narrow)
+         do i = 1, size(errors, 2)
+            line = line//known_column(errors(p, i), column(i))
          end do
          call file%put(line)
       end do
@@ -163,14 +210,14 @@ contains
          column = merge(wide, narrow, i == 1)
       end function column
 
-   end subroutine write_points
+   end subroutine write_places
 
    !> A share as a line of the table
-   pure function share_line(share, points, cuts) result(line)
+   pure function share_line(share, points, cuts, sections) result(line)
       !> The share
       type(error_share_type), intent(in) :: share
-      !> Whether there are points with names, and cuts
-      logical, intent(in) :: points, cuts
+      !> Whether there are points with names, cuts, and lines
+      logical, intent(in) :: points, cuts, sections
       !> The line
       character(len=:), allocatable :: line
 
@@ -179,6 +226,7 @@ contains
              known_column(share%joint_stress, wide)
       if (points) line = line//known_column(share%points, wide)
       if (cuts) line = line//known_column(share%cuts, wide)
+      if (sections) line = line//known_column(share%sections, wide)
       line = line//known_column(share%load, wide)
    end function share_line
 
@@ -333,6 +381,14 @@ contains
             text = text//"; resultants on CUTS "//quantity_text(budget, (budget%cuts), total%cuts, at_least)
             associate (known => count(total%on_cuts(1, :) >= 0.0_wp), all => size(total%on_cuts, 2))
                if (known < all .and. known > 0) text = text//" ("//to_text(known)//" of "//to_text(all)//" cuts)"
+            end associate
+         end if
+         if (total%sections >= 0.0_wp) then
+            text = text//"; stress on SECTIONS "//quantity_text(budget, (budget%sections), total%sections, &
+               at_least .or. results%stress_in_part)
+            associate (points => sum(results%discretization%line_points, 2))
+               if (points(1) < points(2)) text = text//" ("//to_text(points(1))//" of "//to_text(points(2))// &
+                  " points, away from infinite ones)"
             end associate
          end if
          if (total%joint_stress < 0.0_wp) return
