@@ -18,7 +18,7 @@ module axijoint_analysis_error_cut_errors
    use axijoint_element_joint, only : lower_node, upper_node
    use axijoint_fe_element_kind, only : formulation_bbar, is_reduced
    use axijoint_fe_mode, only : mode_type, is_torsion
-   use axijoint_joints_joint_errors, only : joint_change_type
+   use axijoint_joints_joint_change, only : joint_change_type
    use axijoint_model_material, only : elasticity
    use axijoint_model_mesh, only : mesh_type, n_elements, n_joints, n_nodes
    use axijoint_model_model, only : model_type, held_components

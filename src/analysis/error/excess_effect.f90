@@ -6,7 +6,7 @@ module axijoint_analysis_error_excess_effect
       release_factor
    use axijoint_assembly_force, only : joint_force
    use axijoint_base_kinds, only : wp, i8
-   use axijoint_joints_joint_errors, only : joint_change_type
+   use axijoint_joints_joint_change, only : joint_change_type
    use axijoint_model_joint_points, only : model_joint_point_type
    implicit none
    private

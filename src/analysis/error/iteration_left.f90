@@ -11,7 +11,7 @@ module axijoint_analysis_error_iteration_left
    use axijoint_joints_field, only : joint_field_type
    use axijoint_joints_floating, only : add_motions
    use axijoint_joints_history, only : history_type
-   use axijoint_joints_joint_errors, only : joint_change_type, settled_change
+   use axijoint_joints_joint_change, only : joint_change_type, settled_change
    use axijoint_joints_residual, only : ratio
    use axijoint_joints_settle, only : settle_wholly
    implicit none

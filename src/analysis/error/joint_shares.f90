@@ -11,7 +11,7 @@ module axijoint_analysis_error_joint_shares
    use axijoint_base_kinds, only : wp
    use axijoint_joints_floating, only : add_motions
    use axijoint_joints_history, only : history_type
-   use axijoint_joints_joint_errors, only : joint_change_type
+   use axijoint_joints_joint_change, only : joint_change_type
    use axijoint_joints_residual, only : ratio
    use axijoint_joints_scene, only : elastic_stress
    use axijoint_model_request, only : point_type

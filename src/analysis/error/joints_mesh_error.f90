@@ -12,7 +12,7 @@ module axijoint_analysis_error_joints_mesh_error
    use axijoint_joints_field, only : joint_field_type
    use axijoint_joints_floating, only : add_motions
    use axijoint_joints_history, only : history_type
-   use axijoint_joints_joint_errors, only : joint_change_type, change_between, offset_between
+   use axijoint_joints_joint_change, only : joint_change_type, change_between, offset_between
    use axijoint_joints_scene, only : scene_type
    use axijoint_joints_settle, only : find_again
    use axijoint_joints_way, only : lag_type, shift, add_slip
