@@ -8,7 +8,7 @@ module axijoint_base_stop
    use axijoint_base_error, only : error_type, fatal_error, exit_stopped
    implicit none
    private
-   public :: heed_signals, heed_file, stop_wished, stop_cause, check_stop, own_wish, agree_wish
+   public :: heed_signals, heed_file, stop_wished, check_stop, own_wish, agree_wish
 
    interface
       !> Take note of signals; stop_shim.c

@@ -4,7 +4,7 @@ module axijoint_command_help
    use axijoint_command_manual, only : topic_type, option_type
    implicit none
    private
-   public :: overview, help_on, option_text
+   public :: overview, help_on
 
    !> Line end, and the last column of a line
    character(len=*), parameter :: nl = new_line('a')

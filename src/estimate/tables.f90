@@ -104,7 +104,6 @@ contains
       real(wp) :: total(2)
 
       real(wp) :: nodes, angles, n_modes
-      integer :: k
 
       nodes = n_nodes(model%mesh)
       angles = size(model%output_angles)
@@ -115,26 +114,14 @@ contains
       call add(listed(print_nodes, nodes) + restrained_rows(), of_node)
       call add(listed(print_elements, real(n_elements(model%mesh), wp)), of_element)
       call add(listed(print_joints, real(n_joints(model%mesh), wp)), of_joint)
-      do k = 1, size(model%edge_loads)
-         call add(listed(print_loads, real(size(model%edge_loads), wp))/size(model%edge_loads) &
-                  *count(model%edge_loads(k)%nodes > 0), of_load)
-      end do
-      call add(listed(print_loads, real(size(model%ring_loads), wp)) &
-               + listed(print_loads, real(size(model%prescribed), wp)) &
-               + size(model%body_loads) + size(model%thermal_loads), of_load)
+      call add_loads()
       call add(listed(print_path, real(rows%iterations, wp)), of_path)
       call add_increments(size(model%increments))
       call add(n_modes*listed(print_amplitude, nodes) + angles*listed(print_totals, nodes) &
                + n_modes*listed(print_reactions, real(count(any(model%fixed, 1)), wp)), of_vector)
       call add(angles*(listed(print_nodal, real(rows%values, wp)) + listed(print_stresses, real(rows%points, wp))), of_stress)
       call add(listed(print_states, real(rows%joint_points, wp)*rows%planes), of_joint_state)
-      do k = 1, size(model%lines)
-         associate (n => real(size(model%lines(k)%points), wp), at => real(size(model%lines(k)%angles), wp))
-            call add(at*n, of_section_vector)
-            call add(at*n, of_section_stress)
-            call add(at*section_lines, of_heading)
-         end associate
-      end do
+      call add_sections()
       call add(real(size(model%cuts), wp), of_cut)
       call add(size(model%points)*angles*(size(model%increments) + 5), of_point)
 
@@ -180,6 +167,32 @@ contains
             n = n + listed(print_nodes, real(count(any(model%restraints(r)%held, 1)), wp))
          end do
       end function restrained_rows
+
+      !> Add the loads
+      subroutine add_loads()
+         integer :: k
+
+         do k = 1, size(model%edge_loads)
+            call add(listed(print_loads, real(size(model%edge_loads), wp))/size(model%edge_loads) &
+                     *count(model%edge_loads(k)%nodes > 0), of_load)
+         end do
+         call add(listed(print_loads, real(size(model%ring_loads), wp)) &
+                  + listed(print_loads, real(size(model%prescribed), wp)) &
+                  + size(model%body_loads) + size(model%thermal_loads), of_load)
+      end subroutine add_loads
+
+      !> Add the sections, each with a table of displacements and one of stresses at each of its angles
+      subroutine add_sections()
+         integer :: k
+
+         do k = 1, size(model%lines)
+            associate (n => real(size(model%lines(k)%points), wp), at => real(size(model%lines(k)%angles), wp))
+               call add(at*n, of_section_vector)
+               call add(at*n, of_section_stress)
+               call add(at*section_lines, of_heading)
+            end associate
+         end do
+      end subroutine add_sections
 
       !> Add the tables of increments
       subroutine add_increments(n)

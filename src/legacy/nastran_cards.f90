@@ -8,7 +8,7 @@ module axijoint_legacy_nastran_cards
    use axijoint_legacy_cards, only : cards_type
    implicit none
    private
-   public :: entry_type, next_entry, integer_in, real_in, is_in, fault_in, most_fields
+   public :: entry_type, next_entry, integer_in, real_in, is_in, fault_in
 
    !> Fields of an entry with its continuations that are kept
    integer, parameter :: most_fields = 80

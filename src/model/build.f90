@@ -16,7 +16,7 @@ module axijoint_model_build
    private
    public :: add_material, add_law, add_block, add_rectangle, add_interface, hold_edges, &
       add_traction
-   public :: edges_along, node_at, place_function, traction_function
+   public :: node_at, place_function, traction_function
 
    !> Two nodes nearer than this, relative to the extent of the mesh, are at the same place
    real(wp), parameter :: same_place = 1.0e-10_wp

@@ -33,7 +33,7 @@ module axijoint_study_rows
    use axijoint_study_table, only : study_table_type, change_entries
    implicit none
    private
-   public :: rows_type, row_type, new_rows, make_row, solve_row, row_order, free_columns
+   public :: rows_type, row_type, new_rows, make_row, solve_row, row_order
 
    !> What rounding may leave of the displacements of a row, over the largest, without a step of
    !> refinement: much less than the tolerance of an increment claims, and what is printed shows

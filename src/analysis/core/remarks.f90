@@ -216,7 +216,8 @@ contains
          'bodies as they were before. Units of stiffnesses and loads?')
    end subroutine remark_on_size
 
-   !> Why the increments ended as they did
+   !> How the increments ended: what moves, what might as well stand elsewhere, what slip on the way leaves, and why there is no
+   !> equilibrium if there is none
    subroutine remark_on_end(model, structure, history, results, remarks)
       !> The job
       type(model_type), intent(in) :: model
@@ -250,6 +251,22 @@ contains
          end do
       end if
       if (history%n_faded > 0) call add(remarks, fading_text(history))
+      call remark_on_way(results, remarks)
+      if (history%verdict%at_rounding .and. .not. results%unsettled > 0.0_wp) then
+         call add(remarks, 'rounding allows no smaller residual ratio: the stress of open joints so stiff is large; '// &
+                  within_reach(10.0_wp*results%residual_ratio))
+      else if (.not. (results%converged .or. allocated(results%mechanism))) then
+         call add(remarks, no_equilibrium_text(model, structure, history, results))
+      end if
+   end subroutine remark_on_end
+
+   !> What slip, bonds and softening on the way leave that estimates of errors know nothing of, or not all
+   subroutine remark_on_way(results, remarks)
+      !> The results
+      type(results_type), intent(in) :: results
+      !> The sentences, to be continued
+      type(remark_type), allocatable, intent(inout) :: remarks(:)
+
       if (results%keeps_slip .and. results%follows_all_slip) then
          call add(remarks, 'joints slipped in earlier increments, and more than half of a load was taken away since, or they '// &
             'slip all together: errors are rests of larger ones, and a part that slides as a whole stands as wrong as it did then')
@@ -267,57 +284,45 @@ contains
          'hangs on their order, of which estimates of errors know nothing; finer meshes and more increments show how much')
       if (results%turns_slip) call add(remarks, 'slip of joints turns within an increment: how far they slide depends '// &
          'on the way there, of which estimates of errors know nothing; more increments show how much')
-      if (history%verdict%at_rounding .and. .not. results%unsettled > 0.0_wp) then
-         call add(remarks, 'rounding allows no smaller residual ratio: the stress of open '// &
-            'joints so '// &
-                  'stiff is large; '//within_reach(10.0_wp*results%residual_ratio))
-         return
-      end if
-      if (results%converged .or. allocated(results%mechanism)) return
+   end subroutine remark_on_way
+
+   !> Why the last step is no equilibrium, or not one that the tolerance may claim
+   function no_equilibrium_text(model, structure, history, results) result(text)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> The structure, for its joint points
+      type(structure_type), intent(in) :: structure
+      !> How the increments ended
+      type(history_type), intent(in) :: history
+      !> The results
+      type(results_type), intent(in) :: results
+      !> Words
+      character(len=:), allocatable :: text
+
       if (history%newton_finds) then
-         call add(remarks, 'the iterations run away from a state that NEWTON finds: name that method in CONTROL')
-         return
+         text = 'the iterations run away from a state that NEWTON finds: name that method in CONTROL'
+      else if (results%unsettled > 0.0_wp) then
+         text = 'forces are balanced to the tolerance, but the iterations leave displacements or joint stresses uncertain by '// &
+            to_text(results%unsettled)//' of the largest, more than 10 times it'
+      else if (results%uncertain > 0.0_wp) then
+         text = 'forces are balanced to the tolerance, but rounding in the solver leaves displacements uncertain by '// &
+            to_text(results%uncertain)//' of the largest, more than 10 times it'
+      else if (history%verdict%converged .or. (results%residual_ratio <= results%tolerance .and. &
+               results%mismatch > results%tolerance)) then
+         text = trim(merge('bodies that yield', 'the joints       ', bodies_yield(model)))// &
+            ' are balanced to the tolerance, the whole structure is not: rounding; '// &
+            within_reach(10.0_wp*max(results%residual_ratio, results%mismatch))
+      else if (history%verdict%ran_away) then
+         text = 'the iterations run away: joints move more than '//to_text(runaway)//' times as far as elastic joints'
+      else if (.not. history%verdict%stalled) then
+         text = 'INCREMENTS allows no more iterations'
+      else if (.not. any(history%verdict%restless)) then
+         text = 'the residual ratio does not fall any more, though no joint point changes its state'//advice(model, structure)
+      else
+         text = to_text(count(history%verdict%restless))//' joint points on planes change their state for ever'// &
+            period_text(results%path)//restless_text(model, structure, history, results)//advice(model, structure)
       end if
-      if (results%unsettled > 0.0_wp) then
-         call add(remarks, 'forces are balanced to the tolerance, but the iterations leave '// &
-            'displacements or joint '// &
-                  'stresses uncertain by '//to_text(results%unsettled)// &
-                  ' of the largest, more than 10 times it')
-         return
-      end if
-      if (results%uncertain > 0.0_wp) then
-         call add(remarks, 'forces are balanced to the tolerance, but rounding in the solver '// &
-            'leaves displacements '// &
-                  'uncertain by '//to_text(results%uncertain)// &
-                  ' of the largest, more than 10 times it')
-         return
-      end if
-      if (history%verdict%converged .or. (results%residual_ratio <= results%tolerance .and. &
-          results%mismatch > results%tolerance)) then
-         call add(remarks, trim(merge('bodies that yield', 'the joints       ', &
-            bodies_yield(model)))//' are balanced to the tolerance, the whole structure is '// &
-            'not: rounding; '//within_reach(10.0_wp*max(results%residual_ratio, results%mismatch)))
-         return
-      end if
-      if (history%verdict%ran_away) then
-         call add(remarks, 'the iterations run away: joints move more than '//to_text(runaway)// &
-            ' times as far as elastic joints')
-         return
-      end if
-      if (.not. history%verdict%stalled) then
-         call add(remarks, 'INCREMENTS allows no more iterations')
-         return
-      end if
-      if (.not. any(history%verdict%restless)) then
-         call add(remarks, 'the residual ratio does not fall any more, though no joint point '// &
-            'changes its state'// &
-                  advice(model, structure))
-         return
-      end if
-      call add(remarks, to_text(count(history%verdict%restless))//' joint points on '// &
-         'planes change their state for ever'//period_text(results%path)// &
-         restless_text(model, structure, history, results)//advice(model, structure))
-   end subroutine remark_on_end
+   end function no_equilibrium_text
 
    !> Words about cohesion that fades: how many points have a part of it, and how far they are open
    function fading_text(history) result(text)

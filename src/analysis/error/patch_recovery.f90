@@ -13,7 +13,7 @@ module axijoint_analysis_error_patch_recovery
    implicit none
    private
    public :: sampling_type, new_sampling, patches_type, new_patches, patch_work_type
-   public :: find_patch, fit_patch, add_rings, frame_type, new_frame, in_frame, weight_of
+   public :: find_patch, fit_patch, add_rings
 
    !> Most samples of an element
    integer, parameter :: max_samples = 4

@@ -13,7 +13,7 @@ module axijoint_deck_section_shapes
    use axijoint_fe_circle_function, only : circle_function_type, new_patch, new_cosine, new_table
    implicit none
    private
-   public :: shapes_section, keyword_shapes
+   public :: shapes_section
 
    !> The keyword
    character(len=*), parameter :: keyword_shapes = 'SHAPES'

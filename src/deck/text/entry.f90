@@ -8,7 +8,7 @@ module axijoint_deck_text_entry
       field_warning, entry_error
    implicit none
    private
-   public :: entry_type, new_entries, next_entry
+   public :: entry_type, next_entry
    public :: is_given, integer_of, real_of, reals_of, text_of, first_card, field_named
    public :: field_fault, lack_fault, field_doubt, card_fault, is_good, is_sound
 
@@ -24,23 +24,6 @@ module axijoint_deck_text_entry
    end type entry_type
 
 contains
-
-   !> The entries of a section, before the first
-   function new_entries(source, table, diagnostics) result(card)
-      !> The deck
-      type(source_type), intent(in), target :: source
-      !> The section
-      type(table_type), intent(in), target :: table
-      !> Messages
-      type(diagnostics_type), intent(inout), target :: diagnostics
-      !> Place 0 among them
-      type(entry_type) :: card
-
-      card%source => source
-      card%table => table
-      card%diagnostics => diagnostics
-      card%errors_before = diagnostics%n_errors
-   end function new_entries
 
    !> Go on to the next entry of the section
    logical function next_entry(card) result(there_is_one)
