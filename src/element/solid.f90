@@ -1,13 +1,13 @@
 !> Quadrilateral and triangular rings: stiffness of one harmonic
 module axijoint_element_solid
    use axijoint_base_kinds, only : wp
-   use axijoint_element_blocks, only : n_blocks, pack_blocks, unpack_block
+   use axijoint_element_blocks, only : n_blocks, pack_blocks
    use axijoint_element_dilatation, only : dilatation_type, average_volume
    use axijoint_element_solid_point, only : solid_point_type, strain_matrices
    use axijoint_linalg_lapack, only : dgemm
    implicit none
    private
-   public :: solid_stiffness, solid_blocks
+   public :: solid_blocks
    public :: stiffness_kernel_type, new_stiffness_kernel
 
    !> Elasticity between displacement gradients: the strain of a node's
@@ -71,41 +71,8 @@ contains
 
    end function new_stiffness_kernel
 
-   !> The parts of the stiffness of an element, free of the harmonic:
-   !> K_m = c_m (A + m S + m^2 C), c_0 = 2 pi, c_m = pi (Eq. 5)
-   subroutine solid_stiffness(points, n, kernel, a, s, c, dilatation)
-      !> Integration points of the element
-      type(solid_point_type), intent(in) :: points(:)
-      !> Number of nodes
-      integer, intent(in) :: n
-      !> Kernel of its material
-      type(stiffness_kernel_type), intent(in) :: kernel
-      !> The parts, shape (3n, 3n)
-      real(wp), intent(out) :: a(:, :), s(:, :), c(:, :)
-      !> Means over the element, if it takes the volumetric strain as its mean
-      type(dilatation_type), intent(in), optional :: dilatation
-
-      real(wp), allocatable :: blocks(:, :, :, :)
-      integer :: i, j, p
-
-      if (present(dilatation)) then
-         if (dilatation%averaged) then
-            call averaged_stiffness(points, n, kernel, dilatation, a, s, c)
-            return
-         end if
-      end if
-      allocate (blocks(2, 3, 3, n_blocks(n)))
-      call gradient_blocks(points, n, kernel, blocks)
-      p = 0
-      do j = 1, n
-         do i = j, n
-            p = p + 1
-            call unpack_block(blocks(:, :, :, p), i, j, a, s, c)
-         end do
-      end do
-   end subroutine solid_stiffness
-
-   !> The same in blocks of two nodes
+   !> The parts of the stiffness of an element, free of the harmonic: K_m = c_m (A + m S + m^2 C), c_0 = 2 pi, c_m = pi (Eq. 5), in
+   !> blocks of two nodes
    subroutine solid_blocks(points, n, kernel, blocks, dilatation)
       !> Integration points of the element
       type(solid_point_type), intent(in) :: points(:)
@@ -171,7 +138,7 @@ contains
       end do
    end subroutine gradient_blocks
 
-   !> The same parts of an element that takes the volumetric strain as its mean
+   !> The parts of an element that takes the volumetric strain as its mean
    pure subroutine averaged_stiffness(points, n, kernel, dilatation, a, s, c)
       !> Integration points of the element
       type(solid_point_type), intent(in) :: points(:)
