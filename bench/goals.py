@@ -4,7 +4,6 @@ The rules of src/analysis/error/goal.f90 follow from how far true errors were fr
 These scenes are others: other stiffnesses, friction, loads and materials. They were written down before any was run,
 and no rule was changed afterwards."""
 import argparse
-import os
 import sys
 import tempfile
 from concurrent.futures import ThreadPoolExecutor

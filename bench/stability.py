@@ -1,7 +1,6 @@
 """Runs the hard cases and prints a table with a verdict on each. See scripts/bench."""
 import argparse
 import csv
-import os
 import pathlib
 import sys
 import tempfile

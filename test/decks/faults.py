@@ -17,7 +17,6 @@ import subprocess
 import sys
 import tempfile
 import time
-from concurrent.futures import ThreadPoolExecutor
 
 from commits import small
 from same_bits import digests
@@ -144,7 +143,7 @@ class Place:
             faults.append('words of the run-time library: ' + ran.stderr)
         if ran.returncode == self.code and self.hashes and digests(self.stems) != self.hashes:
             faults.append('exit code 0 and other results')
-        return faults + self.left(kind, on)
+        return faults + self.left()
 
     def judged(self, ran, codes):
         """Faults in exit code and message of a run that failed"""
@@ -153,7 +152,7 @@ class Place:
             faults.append(f'not one message: {ran.stderr!r}')
         return faults
 
-    def left(self, kind, on):
+    def left(self):
         """Faults in the files: partial ones, of several runs, or such that the next run leaves"""
         if not self.job.stems:
             return []

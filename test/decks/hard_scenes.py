@@ -360,7 +360,7 @@ def example(number, *, factor=1.0, method='NEWTON', tolerance=1e-10, most=500, h
     return deck.add('INCREMENTS', (1.0, float(tolerance), most)).text()
 
 
-def soil_pile(title, increments, *, friction=25.0, cohesion=0.0, gravity=0.0, details=None, frictionless_base=True,
+def soil_pile(title, increments, *, friction=25.0, cohesion=0.0, gravity=0.0, details=None,
               k=2e3, harmonic=4, planes=17, units=METRE, method='NEWTON', lateral=0.05, tolerance=None):
     """A pile in soil that stands on its toe: case 1 its weight and the stress of the ground (K0 = 0.5),
     case 2 a lateral load on its head; increments are pairs of factor and case"""

@@ -86,7 +86,7 @@ def fields_of(program, deck):
             yield where, entry, field, value, f'{other:.6g}'
 
 
-def number_of(program, deck, section, entry):
+def number_of(deck, section, entry):
     """How a table calls an entry"""
     numbered = {'MATERIALS', 'LAWS', 'LAWDETAILS', 'FACES', 'POINTS', 'CUTS', 'SECTIONS', 'CASE', 'SHAPES'}
     if section not in numbered:
@@ -123,7 +123,7 @@ def every_field(program, folder, deck):
         text = text.split('\nCASE')[0] + '\nCASE' + text.split('\nCASE')[1] + '\nEND\n'
     path = write(folder, f'{deck}.dat', text)
     for section, entry, field, _, other in fields_of(program, deck):
-        name = f"{section} {number_of(program, deck, section, entry)} {field['name']}"
+        name = f"{section} {number_of(deck, section, entry)} {field['name']}"
         try:
             one = changed(text, section, entry - 1, *field['columns'], other)
         except LookupError:

@@ -1,6 +1,5 @@
 """Estimates of errors where bodies yield, beside the true ones"""
 import dataclasses
-import math
 
 import numpy as np
 

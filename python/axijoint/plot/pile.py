@@ -45,7 +45,7 @@ def _chosen(soil, options):
     return style.thinned(range(len(soil.z)), DEPTHS)[::-1]
 
 
-def _by_depth(axes, soil, segments, x, y):
+def _by_depth(axes, segments, x, y):
     """Curves of segments from rest on, named at their far ends."""
     points = []
     for k, segment in enumerate(segments):
@@ -74,7 +74,7 @@ def draw_curves(result, options, of):
     figure, axes = plt.subplots(1, panels, figsize=(style.TWO_COLUMNS, 3.1), sharey=True, squeeze=False)
     axes, segments = axes[0], _chosen(soil, options)
     for one, moved_by in zip(axes, (absolute, relative)):
-        points = _by_depth(one, soil, segments, moved_by, value)
+        points = _by_depth(one, segments, moved_by, value)
     axes[0].set_ylabel(units.label(name, units.per_length(units.force)))
     axes[0].set_xlabel(units.of_length(f"{moved} of the pile"))
     style.scaled(axes[0], "xy")
@@ -101,10 +101,10 @@ def draw_pisa(result, options):
     units, soil = style.Units(result, options), reactions(result, options)
     figure, axes = plt.subplots(2, 2, figsize=(style.TWO_COLUMNS, 5.4))
     segments = _chosen(soil, options)
-    shaft = [_by_depth(one, soil, segments, x, y) for one, x, y in
+    shaft = [_by_depth(one, segments, x, y) for one, x, y in
              ((axes[0, 0], soil.v, soil.p), (axes[0, 1], soil.psi, soil.m))]
     for one, x, y in ((axes[1, 0], soil.v_b, soil.H_b), (axes[1, 1], soil.psi_b, soil.M_b)):
-        _by_depth(one, soil, [0], x[:, None], y[:, None])
+        _by_depth(one, [0], x[:, None], y[:, None])
         for k in style.thinned(range(len(x)), 10):
             one.annotate(str(soil.increment[k]), (x[k], y[k]), (3, -7), textcoords="offset points",
                          fontsize=6.5, color="0.3")

@@ -10,7 +10,7 @@ from .style import plt
 PLACES, CURVES = 3, 4
 
 
-def _rows(result, interface, options):
+def _rows(interface, options):
     """Joint points at the places asked for, or at some along the interface."""
     _, place = interface.coordinate()
     if options.depths:
@@ -42,7 +42,7 @@ def pressure_round(result, points):
 @style.styled
 def draw(result, options, interface):
     """Pressure round the circle at some places of an interface, a curve for each increment: a Figure."""
-    units, rows = style.Units(result, options), _rows(result, interface, options)
+    units, rows = style.Units(result, options), _rows(interface, options)
     letter, _ = interface.coordinate()
     figure, axes = plt.subplots(1, len(rows), figsize=(max(3.4, style.TWO_COLUMNS*len(rows)/3), 3.2),
                                 subplot_kw={"projection": "polar"}, squeeze=False)
@@ -77,7 +77,7 @@ def table(result, options):
     """A row for each interface, place, increment and angle."""
     parts = []
     for interface in joints.interfaces(result).values():
-        rows = _rows(result, interface, options)
+        rows = _rows(interface, options)
         for number in _increments(result, options):
             theta, pressure = pressure_round(result.at(number), rows)
             for row, values in zip(rows, pressure):

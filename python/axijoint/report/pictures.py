@@ -104,7 +104,7 @@ def with_unit(value, unit):
     return f"{number(value)} {unit}".rstrip()
 
 
-def _place(job, peak):
+def _place(peak):
     return (f"{number(peak.value)} at r = {number(peak.r)}, z = {number(peak.z)}, "
             f"θ = {number(peak.theta)}°")
 
@@ -124,14 +124,14 @@ def _planes(job):
 def _deformed(job, _):
     peak = extremes(job.result)["length"][-1]
     return ("Deformed body", f"Meridional {_planes(job)}, displacements enlarged; dashed: at "
-            f"rest. The largest displacement of all angles is {_place(job, peak)}.")
+            f"rest. The largest displacement of all angles is {_place(peak)}.")
 
 
 def _contours(job, name):
     *low, high = extremes(job.result)["length" if name == "displacement" else name]
     unit = job.units.length if name == "displacement" else job.units.stress
-    span = f"up to {_place(job, high)}" if name == "displacement" else \
-        f"from {_place(job, *low)}, to {_place(job, high)}"
+    span = f"up to {_place(high)}" if name == "displacement" else \
+        f"from {_place(*low)}, to {_place(high)}"
     return (NAMES[name] + (f" [{unit}]" if unit else ""),
             f"Contours on the {_planes(job)}. All angles: {span}.")
 
@@ -165,7 +165,7 @@ def _joints(job, rest):
     joints = table.where(chosen)
     states = ", ".join(f"{int((joints['state'] == state).sum())} {state}" for state in STATES)
     peak = joint_peaks(job.result, interface.joints)["pressure"]
-    pressed = f"largest pressure {_place(job, peak)}" if peak.value > 0 else "no point is pressed"
+    pressed = f"largest pressure {_place(peak)}" if peak.value > 0 else "no point is pressed"
     return (f"Joints of interface {rest}" if rest else "Joints",
             f"State, normal stress, shear stress and gap over {interface.coordinate()[0]} and θ. "
             f"Points times planes: {states}; {pressed}.")
