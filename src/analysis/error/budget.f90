@@ -17,6 +17,9 @@ module axijoint_analysis_error_budget
    private
    public :: new_budget, solver_error, sum_of_shares, is_known
 
+   !> So many times as many harmonics, or intervals between planes, about halve an error that falls with the square of their number
+   real, parameter :: more = 1.4142
+
 contains
 
    !> Put the estimates of a run together
@@ -39,7 +42,7 @@ contains
       budget(source_discretization) = discretization_share(model, case_factor, results)
       budget(source_harmonics) = harmonics_share(model, case_factor, results, yields)
       budget(source_planes) = error_share_type(source=source_planes, remedy='planes: '// &
-                                   to_text(nint(1.4142*(model%n_planes - 1)) + 1)//' in CONTROL')
+                                   to_text(nint(more*(model%n_planes - 1)) + 1)//' in CONTROL')
       budget(source_iteration) = error_share_type(source=source_iteration, &
          remedy='half the tolerance in INCREMENTS')
       if (yields) then
@@ -165,7 +168,7 @@ contains
       integer :: i, k, p
 
       share%source = source_harmonics
-      share%remedy = 'harmonics: M = '//to_text(max(model%max_harmonic + 1, nint(1.4142*model%max_harmonic)))// &
+      share%remedy = 'harmonics: M = '//to_text(max(model%max_harmonic + 1, nint(more*model%max_harmonic)))// &
          ' in CONTROL'
       if (size(model%harmonics) <= model%max_harmonic) share%remedy = 'harmonics: more of them in HARMONICS'
       share%displacement = 0.0_wp
