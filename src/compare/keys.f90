@@ -31,6 +31,8 @@ module axijoint_compare_keys
 
    !> Angles nearer than this are the same [degrees]
    real(wp), parameter :: angle_slack = 1.0e-6_wp
+   !> Part of the unit of the last digit that a printed coordinate or angle may be off by: half of it, and rounding
+   real(wp), parameter :: half_digit = 0.51_wp
    !> Words as keys lie apart from all numbers
    real(wp), parameter :: word_offset = -1.0e9_wp
 
@@ -109,9 +111,9 @@ contains
                slack = 0.25_wp
                if (cell%state == cell_word) value = word_offset - cell%value
                if (table%columns(columns(k))%kind == kind_coordinate) then
-                  slack = 0.51_wp*cell%unit + tolerance
+                  slack = half_digit*cell%unit + tolerance
                else if (table%columns(columns(k))%kind == kind_angle) then
-                  slack = 0.51_wp*cell%unit + angle_slack
+                  slack = half_digit*cell%unit + angle_slack
                   value = modulo(value, 360.0_wp)
                   if (360.0_wp - value <= slack) value = 0.0_wp
                end if

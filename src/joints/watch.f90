@@ -18,6 +18,8 @@ module axijoint_joints_watch
    !> Jumps so many times larger than the displacements with elastic joints, and than those by what these joints do not
    !> carry, are no state. (The jumps of an elastic joint are no measure: they vanish if it is stiff.)
    real(wp), parameter :: runaway = 1.0e5_wp
+   !> A residual ratio counts as better below this part of the best so far: iterations that creep have stalled
+   real(wp), parameter :: better = 0.9_wp
 
    !> What is remembered
    type :: watch_type
@@ -89,7 +91,7 @@ contains
          verdict%ran_away = .not. ieee_is_finite(step%ratio)
          if (verdict%ran_away) return
          verdict%ran_away = maxval(abs(field%jump)) > watch%largest
-         if (step%ratio < 0.9_wp*watch%best) then
+         if (step%ratio < better*watch%best) then
             watch%best = step%ratio
             watch%best_at = watch%k
          end if
