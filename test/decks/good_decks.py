@@ -13,7 +13,8 @@
 
 An expression may name the columns of its row, pi, and the functions sqrt, sin and cos. The largest
 error may be 1E-5 times the largest value expected (the listing shows positions with five digits),
-or what follows `within`; where 0 is expected, it may be 1E-12, or what follows `within`.
+or what follows `within` times it; where 0 is expected, it may be 1E-12, or what follows `within`. A value of
+the summary is as expected, or differs by no more than what follows `within`.
 """
 import json
 import math
