@@ -8,7 +8,7 @@ import re
 import subprocess
 
 import legacy_scenes as scenes
-from support import HERE, INPUTS, PYTHONS, Test, read_text, write
+from support import HERE, INPUTS, Test, python_with, read_text, write
 
 FLAG = ('--legacy', 'owen-hinton')
 LISTING = ('--listing', 'owen-hinton')
@@ -17,15 +17,6 @@ LISTING = ('--listing', 'owen-hinton')
 ALIKE, NEAR_COLLAPSE = ('--relative', '2E-5', '--of-table', '1E-6'), ('--relative', '2E-3', '--of-table', '1E-4')
 # Increments that the small program is asked for: those below collapse
 BELOW_COLLAPSE = {'disc.dat': 3, 'plate.dat': 2}
-
-
-def numpy_python():
-    """A Python that has NumPy; none if there is none"""
-    for python in PYTHONS:
-        if os.access(python, os.X_OK) and subprocess.run([python, '-c', 'import numpy'], check=False,
-                                                          stderr=subprocess.DEVNULL).returncode == 0:
-            return python
-    return None
 
 
 def printed(program, folder, name, text, code=0, options=FLAG):
@@ -215,7 +206,7 @@ def disc(program, folder):
 
 def against(program, folder, name):
     """The listing of a deck against that of the small program, and axijoint's results against it"""
-    python = numpy_python()
+    python = python_with('numpy')
     if python is None:
         return []
     text = scenes.DECKS[name].replace('   0.01000   50', '   0.00001   50')

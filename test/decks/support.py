@@ -99,11 +99,13 @@ class Program:
 
 @functools.cache
 def python_with(modules):
-    """A Python that has some modules, 'numpy, h5py'; None if there is none"""
+    """A Python that has some modules, 'numpy, h5py'; None if there is none, which is said once, as tests that need it are then
+    left out, or pass in part"""
     for python in PYTHONS:
         if os.access(python, os.X_OK) and not subprocess.run([python, '-c', f'import {modules}'],
                                                              capture_output=True, check=False).returncode:
             return python
+    print(f'deck tests: what needs a Python with {modules} is left out (scripts/setup verify, plot, python or vtk)')
     return None
 
 
