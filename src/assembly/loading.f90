@@ -14,6 +14,9 @@ module axijoint_assembly_loading
    private
    public :: loading_type, new_loading, add_external, new_initial_state, still_force
 
+   !> Sums of forces below this part of what is summed are rounding
+   real(wp), parameter :: rounded = 32.0_wp*epsilon(1.0_wp)
+
    !> Loads
    type :: loading_type
       !> Factor of each load case
@@ -148,7 +151,8 @@ contains
       call add_support_force(supports, mode%harmonic, still, force)
    end function still_force
 
-   !> Add the external forces of one mode: on edges, nodal circles and masses
+   !> Add the external forces of one mode: on edges, nodal circles and masses. Of loads that take each other away, also of several
+   !> cases, nothing is left: what rounding leaves of them would move bodies that nothing else loads
    subroutine add_external(model, mode, factor, force, unit_loads)
       !> The job
       type(model_type), intent(in) :: model
@@ -161,30 +165,42 @@ contains
       !> Forces of masses under a factor of one, if they are known
       type(unit_loads_type), intent(in), optional :: unit_loads
 
-      integer :: k
+      !> Sizes of the forces on components, and forces of masses, same shape
+      real(wp), allocatable :: sizes(:, :), masses(:, :)
+      real(wp) :: before(3, 3)
+      integer :: k, n
 
+      sizes = abs(force)
       do k = 1, size(model%edge_loads)
          associate (load => model%edge_loads(k))
             if (.not. same_mode(load%mode, mode)) cycle
+            n = count(load%nodes > 0)
+            before(:, :n) = force(:, load%nodes(:n))
             call add_edge_load(load, factor(load%case), model%mesh%coordinates, force)
+            sizes(:, load%nodes(:n)) = sizes(:, load%nodes(:n)) + abs(force(:, load%nodes(:n)) - before(:, :n))
          end associate
       end do
       do k = 1, size(model%ring_loads)
          associate (load => model%ring_loads(k))
             if (.not. same_mode(load%mode, mode)) cycle
             force(:, load%node) = force(:, load%node) + factor(load%case)*load%force
+            sizes(:, load%node) = sizes(:, load%node) + abs(factor(load%case)*load%force)
          end associate
       end do
       do k = 1, size(model%body_loads)
          associate (load => model%body_loads(k))
             if (.not. same_mode(load%mode, mode)) cycle
             if (present(unit_loads)) then
-               force = force + factor(load%case)*unit_loads%mass(:, :, k)
+               masses = factor(load%case)*unit_loads%mass(:, :, k)
             else
-               call add_mass_force(model, load, factor(load%case), force)
+               masses = 0.0_wp*force
+               call add_mass_force(model, load, factor(load%case), masses)
             end if
+            force = force + masses
+            sizes = sizes + abs(masses)
          end associate
       end do
+      where (abs(force) <= rounded*sizes) force = 0.0_wp
    end subroutine add_external
 
    !> Displacements of held components in one mode. At the pole a lateral

@@ -5,7 +5,7 @@ import os
 
 import listing
 from messages import expected_messages, message_faults
-from support import Test, expected, read_text, write
+from support import Test, expected, input_deck, read_text, write
 
 RING = """TITLE
 Ring under two load cases
@@ -203,6 +203,23 @@ def round_the_circle(program, folder):
     return faults + expected('round the axis', False, 'ROUND THE CIRCLE' in read_text(os.path.join(folder, 'plain.lis')))
 
 
+def take_each_other_away(program, folder):
+    """Loads that take each other away leave nothing, also of several cases: no mechanism, and no errors of what rounding leaves"""
+    peg, faults = input_deck('first.dat'), []
+    push = '    1   LATERAL       0.4\n'
+    for name, (cards, further) in {
+            'pulled both ways': ('1, AXIAL, 0.4\n1, AXIAL, -0.4\n', ''),
+            'pushed both ways': (f'{push}1, LATERAL, 0.4, 180.0\n', ''),
+            'three ways': (''.join(f'1, LATERAL, 0.4, {angle}\n' for angle in (10, 130, 250)), ''),
+            'by two cases': ('1, AXIAL, 0.7\n', 'CASE\n2\nRESULTANTS\n1, AXIAL, 0.1\nCOMBINE\n1, 1, 1.0, 2, -7.0\n')}.items():
+        deck = peg.replace(push, cards).replace('\nEND', f'\n{further}END')
+        ran = program.run('run', write(folder, 'peg.dat', deck), '-o', folder)
+        faults += [f'{name}: {fault}' for fault in ran.ended_with(0)]
+        faults += expected(f'{name}: nothing moves', True, 'nothing moves: loads are zero' in ran.out)
+        faults += expected(f'{name}: errors', True, 'nothing that is known leaves an error' in ran.out)
+    return faults
+
+
 def tests(program):
     """The tests of this module"""
     return [Test('load cases: combinations', lambda folder: combinations_add_up(program, folder)),
@@ -210,4 +227,5 @@ def tests(program):
             Test('load cases: not combined', lambda folder: not_combined(program, folder)),
             Test('load cases: increments', lambda folder: increments_of_cases(program, folder)),
             Test('load cases: interfaces', lambda folder: interfaces_listed(program, folder)),
+            Test('load cases: taken away', lambda folder: take_each_other_away(program, folder)),
             Test('load cases: round the circle', lambda folder: round_the_circle(program, folder))]
