@@ -2,6 +2,7 @@
 the largest displacement is one number, whoever tells it"""
 import csv
 import json
+import math
 import os
 import re
 
@@ -322,8 +323,41 @@ def smaller_steps(program, folder):
     return faults
 
 
+def infinite_at_the_axis(program, folder):
+    """A solid disc that is softer round the circle than along r: displacements go like r^lambda, and nodes on the axis are named with
+    lambda - 1 by Lekhnitskii's roots, of the harmonics that are solved; none where all powers are above one"""
+    deck = """TITLE
+A solid disc with three moduli
+CONTROL
+{m}
+ORTHOTROPIC
+1, 1E4, 1E4, {around}
+0.0, 0.0, 0.0, {shear}, {shear}, {shear}
+BLOCKS
+1, 1, 8, 4, 1
+0.0, 0.0, 100.0, 5.0
+FACES
+1, 1, 100.0, 0.0, 100.0, 5.0
+2, 1, 0.0, 0.0, 100.0, 0.0
+FIXEDFACES
+2, 010
+PRESSURES
+1, {m}, -1.0
+END
+"""
+    faults, along, shear = [], 1e4, 1e3
+    for m, around in ((0, 2.5e3), (0, 4e4), (2, 2.5e3), (2, 4e4), (7, 2.5e3)):
+        summary, _ = solved(program, folder, 'disc', deck.format(m=m, around=around, shear=shear))
+        b = along*shear + m**2*along*around + around*shear
+        power = math.sqrt((b - math.sqrt(b**2 - 4*along*around*(shear*(m**2 - 1))**2))/(2*along*shear)) if m else math.sqrt(around/along)
+        wanted = [(0.0, 0.0), (0.0, 5.0)] if power < 0.95 else []
+        faults += expected(f'places, m = {m}', wanted, [(place['r'], place['z']) for place in summary['singular']])
+        faults += [fault for place in summary['singular'] for fault in close(f'exponent, m = {m}', power - 1, place['exponent'], 1e-6)]
+    return faults
+
+
 def tests(program):
     """The tests of this module"""
     return [Test(f'quantities: {function.__name__.replace("_", " ")}', lambda folder, function=function: function(program, folder))
             for function in (energies, dissipation, dissipation_in_units, lifting, largest_displacement, remarks, not_small, nothing_moves, fading,
-                             smaller_steps, reduced_rule)]
+                             smaller_steps, reduced_rule, infinite_at_the_axis)]

@@ -1,14 +1,18 @@
-!> Where stresses are infinite: corners, ends of supports and of materials, edges of stiff joints.
+!> Where stresses are infinite: corners, ends of supports and of materials, edges of stiff joints, the axis of orthotropic solids.
 !> There an error in per cent means nothing; what can be said is the exponent
 module axijoint_analysis_fine_singular_places
    use axijoint_analysis_fine_mesh, only : fine_mesh_type, find_edge
    use axijoint_analysis_fine_wedges, only : sector_type, wedges_type, divide
    use axijoint_base_kinds, only : wp, pi
+   use axijoint_element_axis_exponent, only : axis_exponent
    use axijoint_element_wedge, only : wedge_exponent
+   use axijoint_fe_mode, only : mode_type
    use axijoint_fe_shape, only : n_corners
    use axijoint_model_joint_sides, only : elements_beside, moduli_beside
+   use axijoint_model_material, only : elasticity
    use axijoint_model_mesh, only : mesh_type, n_nodes, n_elements, n_joints
-   use axijoint_model_model, only : model_type, can_yield_at
+   use axijoint_model_model, only : model_type, can_yield_at, on_axis
+   use axijoint_model_modes, only : used_modes
    implicit none
    private
    public :: singular_place_type, find_singular_places, judged_points, decide_what_is_judged
@@ -85,6 +89,7 @@ contains
             least = min(least, exponents(wedges%tip(2, k)))
          end associate
       end do
+      call look_at_axis(model, exponent)
       do node = 1, n_nodes(model%mesh)
          if (.not. exponent(node) < slow) cycle
          distance = 0.0_wp
@@ -92,6 +97,35 @@ contains
          places = [places, singular_place_type(node, exponent(node), distance)]
       end do
    end function find_singular_places
+
+   !> Look at the nodes on the axis, where solids with three moduli may have infinite stresses in some harmonics
+   subroutine look_at_axis(model, exponent)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Exponents of stresses at the nodes
+      real(wp), intent(inout) :: exponent(:)
+
+      type(mode_type), allocatable :: modes(:)
+      real(wp) :: of_material(size(model%materials))
+      logical, allocatable :: pole(:)
+      integer :: k, j, element, node, i
+
+      if (.not. any(model%materials%orthotropic)) return
+      modes = used_modes(model)
+      of_material = 0.0_wp
+      do k = 1, size(of_material)
+         if (.not. model%materials(k)%orthotropic) cycle
+         of_material(k) = minval([(axis_exponent(elasticity(model%materials(k)), modes(j)%harmonic), j=1, size(modes))]) - 1.0_wp
+      end do
+      if (.not. any(of_material < slow)) return
+      pole = on_axis(model%mesh)
+      do element = 1, n_elements(model%mesh)
+         do i = 1, n_corners(model%mesh%element_size(element))
+            node = model%mesh%element_nodes(i, element)
+            if (pole(node)) exponent(node) = min(exponent(node), of_material(model%mesh%element_material(element)))
+         end do
+      end do
+   end subroutine look_at_axis
 
    !> Whether there can be singular places so near to which joint stresses are not judged: joints that hold bodies together
    logical function decide_what_is_judged(model) result(decide)
