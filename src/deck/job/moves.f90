@@ -119,7 +119,7 @@ contains
       !> The deck, whose model has the restraints
       type(deck_type), intent(inout), target :: deck
 
-      integer, allocatable :: order(:)
+      integer, allocatable :: order(:), told(:, :)
       logical, allocatable :: kept(:)
       integer :: i, k
 
@@ -128,10 +128,11 @@ contains
          kept = abs(moves%value) > 0.0_wp
          call check_restraints(draft, deck%loads, deck%model, diagnostics)
          order = order_of(moves)
+         allocate (told(2, 0))
          do k = 2, size(order)
             if (.not. same_component(moves(order(k)), moves(order(k - 1)))) cycle
             kept(order(k)) = .false.
-            call check_same(deck%source, draft, moves(order(k)), moves(order(k - 1)), diagnostics)
+            call check_same(deck%source, draft, moves(order(k)), moves(order(k - 1)), told, diagnostics)
          end do
          do i = 1, size(moves)
             call hold_component(moves(i), deck%model)
@@ -221,18 +222,22 @@ contains
       end do
    end subroutine check_restraints
 
-   !> Report two different displacements of one component
-   subroutine check_same(source, draft, b, a, diagnostics)
+   !> Report two different displacements of one component, once two cards
+   subroutine check_same(source, draft, b, a, told, diagnostics)
       !> The deck
       type(source_type), intent(in) :: source
       !> The mesh
       type(draft_type), intent(in) :: draft
       !> The displacement, and one of the same component that is given before
       type(move_type), intent(in) :: b, a
+      !> Cards that were reported to contradict each other, shape (2, pairs)
+      integer, allocatable, intent(inout) :: told(:, :)
       !> Messages
       type(diagnostics_type), intent(inout) :: diagnostics
 
       if (abs(a%value - b%value) <= same_value*max(abs(a%value), abs(b%value))) return
+      if (any(told(1, :) == a%card .and. told(2, :) == b%card)) return
+      told = reshape([told, a%card, b%card], [2, size(told, 2) + 1])
       call add_error(diagnostics, b%card, 0, 0, &
                      'node '//to_text(draft%node_label(b%node))//' is moved along '// &
                      component_name(b%component)//' in harmonic '//mode_name(b%mode)// &
