@@ -14,7 +14,7 @@ module axijoint_assembly_loading
    private
    public :: loading_type, new_loading, add_external, new_initial_state, still_force
 
-   !> Sums of forces below this part of what is summed are rounding
+   !> Sums of forces, of temperatures and of given displacements below this part of what is summed are rounding
    real(wp), parameter :: rounded = 32.0_wp*epsilon(1.0_wp)
 
    !> Loads
@@ -215,16 +215,20 @@ contains
       !> Amplitudes u, v, w, shape (3, nodes)
       real(wp) :: displacement(3, size(model%mesh%node_label))
 
+      real(wp), allocatable :: sizes(:, :)
       integer :: k, node
 
       displacement = 0.0_wp
+      allocate (sizes, source=displacement)
       do k = 1, size(model%prescribed)
          associate (move => model%prescribed(k))
             if (.not. same_mode(move%mode, mode)) cycle
             displacement(move%component, move%node) = displacement(move%component, move%node) &
                + factor(move%case)*move%value
+            sizes(move%component, move%node) = sizes(move%component, move%node) + abs(factor(move%case)*move%value)
          end associate
       end do
+      where (abs(displacement) <= rounded*sizes) displacement = 0.0_wp
       associate (pole => on_axis(model%mesh))
          do node = 1, size(pole)
             if (.not. pole(node)) cycle
@@ -257,6 +261,7 @@ contains
       !> The state
       type(initial_state_type), intent(out) :: state
 
+      real(wp), allocatable :: sizes(:, :)
       integer :: k, j, element
 
       state%in_situ = scaled_stresses(model%initial_stresses, factor)
@@ -265,8 +270,10 @@ contains
       associate (mesh => model%mesh)
          allocate (state%temperature(max_element_nodes, n_elements(mesh), size(modes)), &
             source=0.0_wp)
+         allocate (sizes(max_element_nodes, n_elements(mesh)))
       end associate
       do j = 1, size(modes)
+         sizes = 0.0_wp
          do k = 1, size(model%thermal_loads)
             associate (load => model%thermal_loads(k))
                if (.not. same_mode(load%mode, modes(j))) cycle
@@ -276,10 +283,13 @@ contains
                              own => state%temperature(:, element, j))
                      own(:n) = own(:n) + factor(load%case) &
                         *load%temperature(model%mesh%element_nodes(:n, element))
+                     sizes(:n, element) = sizes(:n, element) + abs(factor(load%case) &
+                        *load%temperature(model%mesh%element_nodes(:n, element)))
                   end associate
                end do
             end associate
          end do
+         where (abs(state%temperature(:, :, j)) <= rounded*sizes) state%temperature(:, :, j) = 0.0_wp
       end do
    end subroutine new_initial_state
 

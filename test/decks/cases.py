@@ -205,12 +205,15 @@ def round_the_circle(program, folder):
 
 def take_each_other_away(program, folder):
     """Loads that take each other away leave nothing, also of several cases: no mechanism, and no errors of what rounding leaves"""
-    peg, faults = input_deck('first.dat'), []
+    peg, faults = input_deck('first.dat').replace('0.17\n', '0.17              1.0E-5\n'), []
     push = '    1   LATERAL       0.4\n'
     for name, (cards, further) in {
             'pulled both ways': ('1, AXIAL, 0.4\n1, AXIAL, -0.4\n', ''),
             'pushed both ways': (f'{push}1, LATERAL, 0.4, 180.0\n', ''),
             'three ways': (''.join(f'1, LATERAL, 0.4, {angle}\n' for angle in (10, 130, 250)), ''),
+            'heated and cooled': ('', 'TEMPERATURES\n1, 0, 0.7\nCASE\n2\nTEMPERATURES\n1, 0, 0.1\nCOMBINE\n1, 1, 1.0, 2, -7.0\n'),
+            'moved there and back': ('', 'MOVEDFACES\n1, 1, 0.7, 0.0, -0.7\nCASE\n2\nMOVEDFACES\n1, 1, 0.1, 0.0, -0.1\n'
+                                     'COMBINE\n1, 1, 1.0, 2, -7.0\n'),
             'by two cases': ('1, AXIAL, 0.7\n', 'CASE\n2\nRESULTANTS\n1, AXIAL, 0.1\nCOMBINE\n1, 1, 1.0, 2, -7.0\n')}.items():
         deck = peg.replace(push, cards).replace('\nEND', f'\n{further}END')
         ran = program.run('run', write(folder, 'peg.dat', deck), '-o', folder)
