@@ -371,8 +371,8 @@ contains
                    ', z = '//to_text(model%mesh%coordinates(2, place(2)))// &
                    ') can move freely in direction '//trim(component_name(place(1)))// &
                    new_line('a')// &
-                   'mend: is a restraint missing, is a joint stiffness zero or out of all '// &
-                   'proportion to the bodies, or a material far softer than the rest?'
+                   'mend: is a restraint missing, a joint stiffness zero, or a stiffness, or a length beside a '// &
+                   'thickness, out of all proportion to the rest?'
          if (any(is_reduced(model%mesh%kinds))) message = message//new_line('a')//'      '//reduced_hint
       end associate
    end function pivot_message
