@@ -267,7 +267,8 @@ contains
       k = count(fields%first <= last)     ! field of the last character
       if (i < k .or. last > fields(size(fields))%last) then
          slots(i:k)%whole = .false.
-         call report_crossing(card, content(first:last), fields(i:k), first, last, diagnostics)
+         call report_crossing(card, content(first:last), fields(i:k), first, last, &
+                              i == 1 .and. trim(adjustl(content)) == content(first:last), diagnostics)
       else
          if (slots(i)%to < slots(i)%from) slots(i)%from = first
          slots(i)%to = last
@@ -275,7 +276,7 @@ contains
    end subroutine place_run
 
    !> Report a value that runs across the end of a field
-   subroutine report_crossing(card, value, fields, first, last, diagnostics)
+   subroutine report_crossing(card, value, fields, first, last, alone, diagnostics)
       !> The card
       integer, intent(in) :: card
       !> The value
@@ -284,6 +285,8 @@ contains
       type(field_type), intent(in) :: fields(:)
       !> Its columns
       integer, intent(in) :: first, last
+      !> Whether it begins in the first field and no other value is on the card
+      logical, intent(in) :: alone
       !> Messages
       type(diagnostics_type), intent(inout) :: diagnostics
 
@@ -291,6 +294,7 @@ contains
       integer :: i
 
       mend = 'keep a blank between the values, or separate them by commas'
+      if (alone) mend = 'if it is one value, write a comma behind it: then it may have as many digits as it takes'
       if (index(value, '**') > 0) then
          mend = 'the program that wrote the asterisks had too few columns: put the number in'
       end if
