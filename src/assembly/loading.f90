@@ -5,6 +5,7 @@ module axijoint_assembly_loading
    use axijoint_assembly_support, only : support_point_type, add_support_force
    use axijoint_assembly_unit_loads, only : unit_loads_type, in_situ_force, in_situ_joint_stress
    use axijoint_base_kinds, only : wp
+   use axijoint_base_sort, only : ascending_order
    use axijoint_fe_mode, only : mode_type, same_mode, family_symmetric
    use axijoint_model_joint_points, only : model_joint_point_type
    use axijoint_model_load, only : combination_type, scaled_stresses
@@ -165,43 +166,124 @@ contains
       !> Forces of masses under a factor of one, if they are known
       type(unit_loads_type), intent(in), optional :: unit_loads
 
-      !> Sizes of the forces on components, and forces of masses, same shape
-      real(wp), allocatable :: sizes(:, :), masses(:, :)
-      real(wp) :: before(3, 3)
-      integer :: k, n
+      real(wp), allocatable :: masses(:, :)
+      integer :: k
 
-      sizes = abs(force)
-      do k = 1, size(model%edge_loads)
-         associate (load => model%edge_loads(k))
-            if (.not. same_mode(load%mode, mode)) cycle
-            n = count(load%nodes > 0)
-            before(:, :n) = force(:, load%nodes(:n))
-            call add_edge_load(load, factor(load%case), model%mesh%coordinates, force)
-            sizes(:, load%nodes(:n)) = sizes(:, load%nodes(:n)) + abs(force(:, load%nodes(:n)) - before(:, :n))
-         end associate
-      end do
-      do k = 1, size(model%ring_loads)
-         associate (load => model%ring_loads(k))
-            if (.not. same_mode(load%mode, mode)) cycle
-            force(:, load%node) = force(:, load%node) + factor(load%case)*load%force
-            sizes(:, load%node) = sizes(:, load%node) + abs(factor(load%case)*load%force)
-         end associate
-      end do
+      call add_nodal_loads(model, mode, factor, force)
       do k = 1, size(model%body_loads)
          associate (load => model%body_loads(k))
             if (.not. same_mode(load%mode, mode)) cycle
             if (present(unit_loads)) then
                masses = factor(load%case)*unit_loads%mass(:, :, k)
             else
-               masses = 0.0_wp*force
+               if (.not. allocated(masses)) allocate (masses, mold=force)
+               masses = 0.0_wp
                call add_mass_force(model, load, factor(load%case), masses)
             end if
-            force = force + masses
-            sizes = sizes + abs(masses)
+            masses = force + masses
+            where (abs(masses) <= rounded*abs(force)) masses = 0.0_wp
+            force = masses
          end associate
       end do
-      where (abs(force) <= rounded*sizes) force = 0.0_wp
    end subroutine add_external
+
+   !> The same of loads on edges and nodal circles, which touch few of the nodes
+   subroutine add_nodal_loads(model, mode, factor, force)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> The mode
+      type(mode_type), intent(in) :: mode
+      !> Factors of the load cases
+      real(wp), intent(in) :: factor(:)
+      !> Forces on components, shape (3, nodes)
+      real(wp), intent(inout) :: force(:, :)
+
+      integer, allocatable :: nodes(:)
+      !> Sizes of the forces on these, shape (3, nodes that are touched)
+      real(wp), allocatable :: sizes(:, :)
+      real(wp) :: before(3, 3)
+      integer :: i, k, n
+
+      nodes = touched(model, mode)
+      sizes = abs(force(:, nodes))
+      do k = 1, size(model%edge_loads)
+         associate (load => model%edge_loads(k))
+            if (.not. same_mode(load%mode, mode)) cycle
+            n = count(load%nodes > 0)
+            before(:, :n) = force(:, load%nodes(:n))
+            call add_edge_load(load, factor(load%case), model%mesh%coordinates, force)
+            do i = 1, n
+               call add_size(load%nodes(i), force(:, load%nodes(i)) - before(:, i))
+            end do
+         end associate
+      end do
+      do k = 1, size(model%ring_loads)
+         associate (load => model%ring_loads(k))
+            if (.not. same_mode(load%mode, mode)) cycle
+            force(:, load%node) = force(:, load%node) + factor(load%case)*load%force
+            call add_size(load%node, factor(load%case)*load%force)
+         end associate
+      end do
+      do i = 1, size(nodes)
+         where (abs(force(:, nodes(i))) <= rounded*sizes(:, i)) force(:, nodes(i)) = 0.0_wp
+      end do
+
+   contains
+
+      !> Add the size of a force
+      subroutine add_size(node, added)
+         !> The node, and the force
+         integer, intent(in) :: node
+         real(wp), intent(in) :: added(3)
+
+         integer :: first, last, middle
+
+         first = 1
+         last = size(nodes)
+         do while (first < last)
+            middle = (first + last)/2
+            if (nodes(middle) < node) then
+               first = middle + 1
+            else
+               last = middle
+            end if
+         end do
+         sizes(:, first) = sizes(:, first) + abs(added)
+      end subroutine add_size
+
+   end subroutine add_nodal_loads
+
+   !> Nodes that loads on edges and nodal circles touch in one mode, ascending
+   pure function touched(model, mode) result(nodes)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> The mode
+      type(mode_type), intent(in) :: mode
+      !> The nodes, each once
+      integer, allocatable :: nodes(:)
+
+      integer, allocatable :: all(:)
+      integer :: i, k, n
+
+      allocate (all(3*size(model%edge_loads) + size(model%ring_loads)))
+      n = 0
+      do k = 1, size(model%edge_loads)
+         associate (load => model%edge_loads(k))
+            if (.not. same_mode(load%mode, mode)) cycle
+            do i = 1, count(load%nodes > 0)
+               n = n + 1
+               all(n) = load%nodes(i)
+            end do
+         end associate
+      end do
+      do k = 1, size(model%ring_loads)
+         if (.not. same_mode(model%ring_loads(k)%mode, mode)) cycle
+         n = n + 1
+         all(n) = model%ring_loads(k)%node
+      end do
+      all = all(ascending_order(real(all(:n), wp)))
+      nodes = pack(all, [(i == 1 .or. all(max(1, i - 1)) /= all(i), i=1, n)])
+   end function touched
 
    !> Displacements of held components in one mode. At the pole a lateral
    !> displacement is u = -w in harmonic 1, and higher harmonics have none
