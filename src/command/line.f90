@@ -283,7 +283,21 @@ contains
       if (command%name == 'study' .and. size(command%decks) > 2) &
          call fatal_error(error, exit_deck, &
          'a study has one table and one deck; use: '//program_name//' study TABLE [DECK]')
+      if (command%name == 'study' .and. size(command%decks) == 2) then
+         associate (first => command%decks(1)%text, second => command%decks(2)%text)
+            if (is_of(first, '.dat') .and. is_of(second, '.csv')) call fatal_error(error, exit_deck, &
+               'the table comes first, then the deck; use: '//program_name//' study '//second//' '//first)
+         end associate
+      end if
    end subroutine read_arguments
+
+   !> Whether a file has an ending
+   pure logical function is_of(path, ending)
+      !> Its path, and the ending
+      character(len=*), intent(in) :: path, ending
+
+      is_of = index(path, ending, back=.true.) == len(path) - len(ending) + 1 .and. len(path) > len(ending)
+   end function is_of
 
    !> Set an option without a value
    subroutine set_option(option, command)

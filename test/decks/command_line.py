@@ -73,6 +73,7 @@ CASES = (
     (('run', FIRST, '-o', ''), 2, '', 'option -o has an empty value'),
     (('estimate', FIRST, '--iterations', '0'), 2, '', "option --iterations: found '0', allowed is"),
     (('estimate', FIRST, '--estimates'), 2, '', 'options --estimates and --part go with --study TABLE'),
+    (('study', FIRST, 'rows.csv'), 2, '', 'the table comes first, then the deck; use: axijoint study rows.csv '),
     (('estimate', FIRST, FIRST, '--study', 'rows.csv'), 2, '', 'a study has one table and one deck; use: axijoint estimate'),
     (('estimate', FIRST, '--study', 'rows.csv'), 2, '', 'rows.csv: error: there is no such file'),
     (('run', FIRST, '--fast'), 2, '', "unknown option '--fast'"),

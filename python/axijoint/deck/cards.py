@@ -604,15 +604,15 @@ class Cards:
         self._entry("SWEEP", first, last, sectors)
 
     def error(self, target: float, *,
-              quantity: Literal["JOINTS", "DISPL", "ENERGY", "POINTS", "CUTS"] | None = None,
+              quantity: Literal["JOINTS", "DISPL", "ENERGY", "POINTS", "CUTS", "SECTIONS"] | None = None,
               rounds: int | None = None, unknowns: int | None = None,
               division: Literal["GRADED", "UNIFORM"] | None = None) -> None:
         """ERROR: the job is solved again, refined, until its error is below a target.
 
         target: target [%]; allowed: 0 < … ≤ 100
         quantity: of what: JOINTS (joint stress), DISPL (displacements), ENERGY (stresses in the energy norm),
-            POINTS (displacements at points of POINTS), CUTS (resultants on CUTS); if not given: DISPL; allowed:
-            JOINTS, DISPL, ENERGY, POINTS, CUTS
+            POINTS (displacements at points of POINTS), CUTS (resultants on CUTS), SECTIONS (stresses along
+            SECTIONS); if not given: DISPL; allowed: JOINTS, DISPL, ENERGY, POINTS, CUTS, SECTIONS
         rounds: most rounds; if not given: 8; allowed: 1 … 99
         unknowns: most unknowns in all: no round is begun that could have more; if not given: 1000000; allowed:
             1 … 1000000000

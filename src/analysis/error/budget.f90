@@ -381,7 +381,8 @@ contains
       if (any(share%on_lines >= 0.0_wp)) share%sections = ratio(maxval(share%on_lines), maxval(stress))
    end subroutine compare_lines
 
-   !> All shares together, each quantity without those that are not known; negative if none is
+   !> All shares together, each quantity without those that are not known; negative if none is. Of a single point, cut or line it is
+   !> not known if one of them is not: a sum without it would be taken for all
    pure function sum_of_shares(budget) result(total)
       !> The budget
       type(error_share_type), intent(in) :: budget(:)
@@ -397,18 +398,12 @@ contains
       total%points = known_sum((budget%points))
       total%cuts = known_sum((budget%cuts))
       total%sections = known_sum((budget%sections))
-      allocate (total%on_lines(size(budget(1)%on_lines)), source=-1.0_wp)
-      do p = 1, size(total%on_lines)
-         if (all([(budget(i)%on_lines(p), i=1, size(budget))] >= 0.0_wp)) &
-            total%on_lines(p) = sum([(budget(i)%on_lines(p), i=1, size(budget))])
-      end do
+      total%on_lines = [(whole_sum([(budget(i)%on_lines(p), i=1, size(budget))]), p=1, size(budget(1)%on_lines))]
+      total%at_points = [(whole_sum([(budget(i)%at_points(p), i=1, size(budget))]), p=1, size(budget(1)%at_points))]
       allocate (total%on_cuts, mold=budget(1)%on_cuts)
       do p = 1, size(total%on_cuts, 2)
-         total%on_cuts(:, p) = -1.0_wp  ! a sum without one of them would be taken for all
-         if (all([(budget(i)%on_cuts(1, p), i=1, size(budget))] >= 0.0_wp)) &
-            total%on_cuts(:, p) = [(sum([(budget(i)%on_cuts(k, p), i=1, size(budget))]), k=1, n_kinds)]
+         total%on_cuts(:, p) = [(whole_sum([(budget(i)%on_cuts(k, p), i=1, size(budget))]), k=1, n_kinds)]
       end do
-      total%at_points = [(known_sum([(budget(i)%at_points(p), i=1, size(budget))]), p=1, size(budget(1)%at_points))]
       total%seconds = sum(budget%seconds)
    end function sum_of_shares
 
@@ -420,6 +415,15 @@ contains
       known_sum = -1.0_wp
       if (any(values >= 0.0_wp)) known_sum = sum(values, mask=values >= 0.0_wp)
    end function known_sum
+
+   !> The sum, if all is known; else negative
+   pure real(wp) function whole_sum(values)
+      !> Values, negative if not known
+      real(wp), intent(in) :: values(:)
+
+      whole_sum = -1.0_wp
+      if (all(values >= 0.0_wp)) whole_sum = sum(values)
+   end function whole_sum
 
    !> Whether all shares of a quantity are known; the solver has none of joint stress
    pure logical function is_known(budget, values)
