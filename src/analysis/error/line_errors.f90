@@ -124,9 +124,9 @@ contains
       !$omp end parallel do
    end function change_on_lines
 
-   !> What joints carry in harmonics above M, as far as it reaches the lines: bodies have none of it. Straight from a joint it fades like
-   !> waves of harmonic M + 1 in a half-space. Where a wall bends it makes more of it, as far as the highest harmonics up to M tell:
-   !> rings that bend have stresses like 1/(m^2 - 1)
+   !> What joints carry in harmonics above M, as far as it reaches the lines: bodies have none of it. Straight from joints it fades like
+   !> waves of harmonic M + 1 in a half-space; of the joints the mean counts, by how much of it arrives. Where a wall bends it makes
+   !> more of it, as far as the highest harmonics up to M tell: rings that bend have stresses like 1/(m^2 - 1)
    function stress_beyond(model, structure, planes, stress, displacement) result(beyond)
       !> The job
       type(model_type), intent(in) :: model
@@ -180,18 +180,23 @@ contains
          !> The line
          type(line_type), intent(in) :: line
 
-         integer :: j, p
+         !> Pairs of points that are looked at, at most
+         real(wp), parameter :: most = 1.0e6_wp
+         real(wp) :: faded(size(left))
+         integer :: j, p, step
 
          reaching = 0.0_wp
-         do p = 1, size(line%points)
-            do j = 1, size(left)
-               if (left(j) <= reaching) cycle
-               associate (place => structure%condensed%points(j)%position)
-                  reaching = max(reaching, left(j)*exp(-(m + 1)*norm2(line%points(p)%position - place) &
-                                                       /max(tiny(1.0_wp), place(1))))
-               end associate
+         step = max(1, ceiling(real(size(line%points), wp)*size(left)/most))
+         associate (points => structure%condensed%points)
+            do p = 1, size(line%points), step
+               do j = 1, size(left)
+                  faded(j) = exp(-(m + 1)*norm2(line%points(p)%position - points(j)%position) &
+                                 /max(tiny(1.0_wp), points(j)%position(1)))
+               end do
+               if (.not. any(faded > 0.0_wp)) cycle
+               reaching = max(reaching, maxval(faded)*sum(points%weight*faded*left)/sum(points%weight*faded))
             end do
-         end do
+         end associate
       end function reaching
 
    end function stress_beyond
