@@ -91,7 +91,8 @@ def mesh_rows():
             yield row(f"chimney, m = {m}", scenes.chimney, setting, setting.fine(n=12), m=m)
         yield row("pipe pile", scenes.pipe_pile, Setting(kind), Setting().fine(n=3))
     for kind in ("6", "8", "9"):
-        for m, thickness, across, along in ((0, 0.01, 1, 8), (0, 0.003, 1, 12), (0, 0.003, 3, 12), (0, 0.001, 1, 20), (1, 0.001, 1, 32),
+        for m, thickness, across, along in ((0, 0.01, 1, 8), (0, 0.003, 1, 12), (0, 0.003, 1, 24), (0, 0.003, 1, 48), (0, 0.003, 3, 12),
+                                            (0, 0.001, 1, 20), (1, 0.001, 1, 32),
                                             (2, 0.001, 2, 32), (0, 0.0003, 1, 64)):
             setting = replace(linear, kind=kind, harmonic=m)
             yield row(f"rim, wall {thickness}, {across} x {along}, m = {m}", scenes.rim, setting, setting.fine(n=5, grade=10.0), m=m,
@@ -227,12 +228,13 @@ class Runs:
         words = own.summary["errors"]["in_words"]
         found = (("displacement", displacement_error(own, better), "displacement"), ("joint stress", joint_error(own, better), "joint_stress"),
                  ("resultants on CUTS", cut_error(own, better), "cuts"), ("stress on SECTIONS", section_error(own, better), "sections"))
-        return [None if true is None else Pair(true, estimate[key], f"{name} at least" in words) for name, true, key in found]
+        return [None if true is None else Pair(name, true, estimate[key], f"{name} at least" in words) for name, true, key in found]
 
 
 @dataclass
 class Pair:
-    """A true error, its estimate and whether that is told as the least that it is"""
+    """Of what, a true error, its estimate and whether that is told as the least that it is"""
+    name: str
     true: float
     told: float
     at_least: bool
@@ -253,6 +255,17 @@ def shown(pair):
     mark = " " if ratio is None or BAND[0] <= ratio <= BAND[1] else "!" if ratio > MOST and not pair.at_least else "*"
     return (f"{100*pair.true:10.4f} {100*(pair.told if pair.told is not None else np.nan):10.4f} "
             f"{'       -' if ratio is None else f'{ratio:8.2f}'}{mark}   ")
+
+
+def by_quantity(found):
+    """Print a line for each source and quantity"""
+    for source, name in dict.fromkeys((source, name) for source, name, _, _ in found):
+        own = [(ratio, at_least) for one, other, ratio, at_least in found if (one, other) == (source, name)]
+        ratios, small = np.array([ratio for ratio, _ in own]), [at_least for ratio, at_least in own if ratio > BAND[1]]
+        inside = np.mean((ratios >= BAND[0]) & (ratios <= BAND[1]))
+        print(f"{source:10} {name:20} {len(ratios):4d} figures, {100*inside:5.1f} % within {BAND[0]:g} and {BAND[1]:g}, too small {len(small)} "
+              f'({sum(small)} told as "at least"), too large {np.sum(ratios < BAND[0])}; largest {ratios.max():.2f}, least {ratios.min():.2f}')
+    print()
 
 
 def verdict(found):
@@ -307,9 +320,10 @@ def main():
                 print(f"{row.source:10} {row.name:46} did not run")
                 continue
             print(f"{row.source:10} {row.name:46} {''.join(map(shown, pairs))}".rstrip(), flush=True)
-            found += [(row.source, judged(pair), pair.at_least) for pair in pairs if judged(pair) is not None]
+            found += [(row.source, pair.name, judged(pair), pair.at_least) for pair in pairs if judged(pair) is not None]
     print()
-    met = verdict(found)
+    by_quantity(found)
+    met = verdict([(source, ratio, at_least) for source, _, ratio, at_least in found])
     sys.exit(0 if met and not failed else 1)
 
 

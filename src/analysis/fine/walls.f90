@@ -20,8 +20,8 @@ module axijoint_analysis_fine_walls
    !> Elements of a wall longer than this times sqrt(r t) see next to nothing of how it bends at its edges, and those half as long
    !> no more: at rims that are bent errors were up to 1.5 times their estimates at 6, 2 to 3 at 8, 13 to 40 at 20
    real(wp), parameter :: longest_seen = 6.0_wp
-   !> Of how stress changes there elements longer than this times sqrt(r t) see a part: its errors at rims that are bent were 1 to 1.5
-   !> times their estimates at 0.4, up to 2.2 at 0.75, 4 at 1 to 1.5
+   !> Of how stress changes there elements longer than this times sqrt(r t) see a part: its errors at rims that are bent were 1.2 to 1.4
+   !> times their estimates at 0.38, up to 2.2 at 0.76, 2.4 to 3.9 at 0.9 to 1.6
    real(wp), parameter :: longest_by_stress = 0.6_wp
    !> A wall as thick as more than this part of its radius bends as a whole, not round its circle
    real(wp), parameter :: shell = 0.5_wp
