@@ -8,7 +8,7 @@ module axijoint_analysis_core_remarks
       source_harmonics
    use axijoint_analysis_core_structure, only : structure_type
    use axijoint_analysis_core_totals, only : largest_displacement, peak_type
-   use axijoint_analysis_fine_walls, only : most_across, longest_seen
+   use axijoint_analysis_fine_walls, only : most_across, longest_seen, longest_by_stress
    use axijoint_base_kinds, only : wp, degree
    use axijoint_base_text, only : to_text, count_of, name_of, list_of, percent_text
    use axijoint_element_joint_law, only : joint_law_type, opening_reversible, eta, state_stick
@@ -91,6 +91,10 @@ contains
       if (results%edges_unseen .and. allocated(results%budget)) call add(remarks, 'walls with elements at their edges longer '// &
          'than '//to_text(longest_seen)//' times the root of radius times thickness: estimates of errors see next to nothing '// &
          'of how they bend there; shorter elements at the edges are judged in full')
+      if (results%stress_in_part .and. .not. results%edges_unseen .and. allocated(results%budget) .and. size(model%lines) > 0) &
+         call add(remarks, 'walls with elements at their edges longer than '//to_text(longest_by_stress)//' times the root of '// &
+         'radius times thickness: estimates of errors see a part of how stresses change there, so those on SECTIONS are told '// &
+         'as "at least"')
       pins = pin_text(model, structure, history%loading, field, results)
       if (len(pins) > 0) call add(remarks, pins)
       if (allocated(results%stiffer)) remarks = [remarks, proportion_remarks(model, results)]

@@ -7,7 +7,7 @@ module axijoint_analysis_fine_walls
    use axijoint_model_neighbours, only : neighbours_type, new_neighbours, element_at_edge
    implicit none
    private
-   public :: walls_type, find_walls, long_sides, is_slender, most_across, longest_seen
+   public :: walls_type, find_walls, long_sides, is_slender, most_across, longest_seen, longest_by_stress
 
    !> An element longer than this times its width is strongly coupled to its neighbours across its
    !> long sides
